@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRadianceMap.h"
+
+#include "vtkCellData.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkHeadlessFactory.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRadianceBaker.h"
+#include "vtkRadianceTexture.h"
+#include "vtkShadowSceneBuilder.h"
+#include "vtkStringArray.h"
+#include "vtkStructuredGrid.h"
+
+#include <cmath>
+#include <string>
+
+vtkStandardNewMacro(vtkRadianceMap);
+
+namespace
+{
+
+/// The corners of the texels.
+void AddPoints(const penumbra::Receiver& receiver, vtkStructuredGrid* grid)
+{
+  const glm::ivec2 texels = receiver.Texels;
+  const penumbra::Parallelogram& base = receiver.Base;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(
+    (static_cast<vtkIdType>(texels.x) + 1) * (static_cast<vtkIdType>(texels.y) + 1));
+  vtkIdType id = 0;
+  for (int j = 0; j <= texels.y; ++j)
+  {
+    for (int i = 0; i <= texels.x; ++i)
+    {
+      const double u = static_cast<double>(i) / texels.x;
+      const double v = static_cast<double>(j) / texels.y;
+      const glm::dvec3 point = base.Corner + u * base.EdgeX + v * base.EdgeY;
+      points->SetPoint(id++, &point.x);
+    }
+  }
+  grid->SetDimensions(texels.x + 1, texels.y + 1, 1);
+  grid->SetPoints(points);
+}
+
+vtkNew<vtkFloatArray> MakeArray(const char* name, int components, vtkIdType tuples)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// The texels as cell arrays.
+void AddCells(const penumbra::Receiver& receiver, const vtkRadianceTexture::Texels& texels,
+  vtkStructuredGrid* grid)
+{
+  const auto count = static_cast<vtkIdType>(texels.Irradiance.size());
+  const vtkNew<vtkFloatArray> radiance = MakeArray("Radiance", 3, count);
+  const vtkNew<vtkFloatArray> visibility = MakeArray("Visibility", 1, count);
+  const vtkNew<vtkFloatArray> error = MakeArray("ErrorEstimate", 1, count);
+  const glm::vec3 reflectance(receiver.Settings.Reflectance);
+  const glm::vec3 ambient(receiver.Settings.AmbientRadiance);
+  const glm::vec3 third(1.0f / 3.0f);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const glm::vec4& arriving = texels.Irradiance[static_cast<std::size_t>(i)];
+    const glm::vec3 reflected = reflectance * (ambient + glm::vec3(arriving));
+    radiance->SetTypedTuple(i, &reflected.x);
+    const float share =
+      arriving.a > 0.0f ? glm::dot(glm::vec3(arriving), third) / arriving.a : 1.0f;
+    visibility->SetValue(i, std::min(share, 1.0f)); // sums over lights round
+    // The light's colour is in the variance of the mean of its components; the receiver's is not.
+    const float variance = texels.Variance[static_cast<std::size_t>(i)];
+    error->SetValue(i, glm::dot(reflectance, third) * std::sqrt(variance));
+  }
+  grid->GetCellData()->AddArray(radiance);
+  grid->GetCellData()->AddArray(visibility);
+  grid->GetCellData()->AddArray(error);
+}
+
+void AddReport(const vtkRadianceBaker::Report& report, vtkStructuredGrid* grid)
+{
+  vtkNew<vtkIntArray> samples;
+  samples->SetName("LightSamples");
+  vtkNew<vtkStringArray> effects;
+  effects->SetName("Effect");
+  for (std::size_t i = 0; i < report.Effects.size(); ++i)
+  {
+    samples->InsertNextValue(report.LightSamples[i]);
+    effects->InsertNextValue(penumbra::GetEffectName(report.Effects[i]));
+  }
+  vtkNew<vtkDoubleArray> seconds;
+  seconds->SetName("BakeSeconds");
+  seconds->InsertNextValue(report.Seconds);
+  grid->GetFieldData()->AddArray(samples);
+  grid->GetFieldData()->AddArray(effects);
+  grid->GetFieldData()->AddArray(seconds);
+}
+
+/// Adds all inputs of a port; the answer is where each one's receivers end.
+std::vector<std::size_t> AddInputs(vtkShadowSceneBuilder* builder, vtkInformationVector* inputs,
+  const std::string& portName, int roles)
+{
+  std::vector<std::size_t> ends;
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    builder->AddData(
+      vtkDataObject::GetData(inputs, i), nullptr, roles, portName + "[" + std::to_string(i) + "]");
+    ends.push_back(builder->GetScene().Receivers.size());
+  }
+  return ends;
+}
+
+} // namespace
+
+vtkRadianceMap::vtkRadianceMap()
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkRadianceMap::~vtkRadianceMap() = default;
+
+int vtkRadianceMap::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  if (port != RECEIVERS)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+vtkOpenGLRenderWindow* vtkRadianceMap::GetCurrentWindow()
+{
+  if (!this->Window)
+  {
+    this->Window = vtkHeadlessFactory::NewOffScreenWindow();
+  }
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
+  if (!window || !window->SupportsOpenGL())
+  {
+    vtkErrorMacro("RadianceMap: there is no OpenGL 3.2, which the bake needs. A display, EGL or "
+                  "OSMesa provides it.");
+    this->Window = nullptr;
+    return nullptr;
+  }
+  window->Initialize();
+  window->MakeCurrent();
+  return window;
+}
+
+int vtkRadianceMap::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkNew<vtkShadowSceneBuilder> builder;
+  using Builder = vtkShadowSceneBuilder;
+  const std::vector<std::size_t> ends = AddInputs(builder, inputVector[RECEIVERS], "Receivers",
+    Builder::Receiver | Builder::DefaultReceiver | Builder::Occluder);
+  AddInputs(builder, inputVector[OCCLUDERS], "Occluders", Builder::Occluder);
+  AddInputs(builder, inputVector[LIGHTS], "Lights", Builder::Light);
+
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  const penumbra::ShadowScene& scene = builder->GetScene();
+  if (scene.Receivers.empty())
+  {
+    return 1;
+  }
+  vtkOpenGLRenderWindow* window = this->GetCurrentWindow();
+  if (!window)
+  {
+    return 0;
+  }
+  std::size_t first = 0;
+  for (const std::size_t end : ends)
+  {
+    std::vector<std::size_t> receivers;
+    for (; first < end; ++first)
+    {
+      receivers.push_back(first);
+    }
+    vtkNew<vtkRadianceBaker> baker;
+    vtkNew<vtkRadianceTexture> texture;
+    const auto reports = baker->Bake(scene, receivers, window, texture);
+    for (std::size_t i = 0; i < reports.size(); ++i)
+    {
+      const penumbra::Receiver& receiver = scene.Receivers[reports[i].Receiver];
+      vtkNew<vtkStructuredGrid> grid;
+      AddPoints(receiver, grid);
+      AddCells(receiver, texture->Download(texture->GetRegions()[i]), grid);
+      AddReport(reports[i], grid);
+      output->SetBlock(output->GetNumberOfBlocks(), grid);
+    }
+    texture->ReleaseGraphicsResources();
+  }
+  return 1;
+}
+
+void vtkRadianceMap::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Window: " << this->Window << "\n";
+}

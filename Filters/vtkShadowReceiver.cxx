@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkShadowReceiver.h"
+
+#include "ShadowSettings.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkShadowFieldData.h"
+#include "vtkShadowSceneBuilder.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+vtkStandardNewMacro(vtkShadowReceiver);
+
+vtkShadowReceiver::vtkShadowReceiver() = default;
+vtkShadowReceiver::~vtkShadowReceiver() = default;
+
+int vtkShadowReceiver::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->ShallowCopy(input);
+
+  penumbra::ReceiverSettings settings;
+  settings.TexelSize = this->TexelSize;
+  settings.LightSamples = this->LightSamples;
+  settings.SampleMultiplier = this->SampleMultiplier;
+  settings.SamplingPattern = this->SamplingPattern;
+  settings.Supersampling = this->Supersampling;
+  settings.Reflectance = glm::make_vec3(this->Reflectance);
+  settings.AmbientRadiance = glm::make_vec3(this->AmbientRadiance);
+  settings.Side = static_cast<penumbra::ReceiverSide>(this->Side);
+  settings.Seed = this->Seed;
+  std::string problem = settings.FindProblem();
+  if (problem.empty())
+  {
+    problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
+  }
+  if (!problem.empty())
+  {
+    vtkErrorMacro("ShadowReceiver: " << problem << ".");
+    return 1; // the input goes on, to be drawn plain
+  }
+  vtkShadowFieldData::Write(settings, output->GetFieldData());
+  return 1;
+}
+
+void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const double v[3])
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n"; };
+  os << indent << "TexelSize: " << this->TexelSize << "\n";
+  os << indent << "LightSamples: " << this->LightSamples << "\n";
+  os << indent << "SampleMultiplier: " << this->SampleMultiplier << "\n";
+  os << indent << "SamplingPattern: " << this->SamplingPattern << "\n";
+  os << indent << "Supersampling: " << this->Supersampling << "\n";
+  print("Reflectance", this->Reflectance);
+  print("AmbientRadiance", this->AmbientRadiance);
+  os << indent << "Side: " << this->Side << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+}

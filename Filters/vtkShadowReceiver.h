@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkShadowReceiver
+ * @brief designates planar polygonal data as receivers of soft shadows
+ *
+ * The output is the input with the properties below as field data, by which vtkSoftShadowPass and
+ * vtkRadianceMap know it. Connected coplanar polygons form one receiver: a plane at any resolution
+ * is one, a box is six. Each gets a radiance texture on the parallelogram that is fitted around it
+ * (Heckbert and Herf 1997, 3.4): exactly for parallelograms; a triangle fills the lower left half
+ * of it; anything else lies in the smallest rectangle around it.
+ *
+ * A surface that is curved, or has no polygon with an area, is an error and passes without
+ * settings: it will be drawn plain. So is a property out of its range.
+ *
+ * @sa vtkAreaLightSource, vtkRadianceMap, vtkSoftShadowPass
+ */
+#ifndef vtkShadowReceiver_h
+#define vtkShadowReceiver_h
+
+#include "PenumbraFiltersModule.h" // for the export macro
+#include "vtkPolyDataAlgorithm.h"
+
+class PENUMBRAFILTERS_EXPORT vtkShadowReceiver : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkShadowReceiver* New();
+  vtkTypeMacro(vtkShadowReceiver, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Patterns of light samples. The first halves and the second halves are stratified too.
+  enum SamplingPatterns
+  {
+    SOBOL = 0, ///< Owen-scrambled
+    CORRELATED_MULTI_JITTERED = 1,
+    JITTERED_GRID = 2,
+    UNIFORM_GRID = 3,
+    RANDOM = 4
+  };
+
+  /// Which side of the receiver is lit.
+  enum Sides
+  {
+    AUTO = 0,  ///< the side that gets more light
+    FRONT = 1, ///< the side from which its polygons are seen counter-clockwise
+    BACK = 2
+  };
+
+  ///@{
+  /**
+   * The size of texels in world units; 0 makes 512 texels along the longest edge. Texels grow, with
+   * a warning, where a texture would pass 16 384 texels a side or 256 MiB. Default is 0.
+   */
+  vtkSetMacro(TexelSize, double);
+  vtkGetMacro(TexelSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many samples each light gets, 1 to 65536. The grids round up to full rows. Default is 64.
+   */
+  vtkSetMacro(LightSamples, int);
+  vtkGetMacro(LightSamples, int);
+  ///@}
+
+  ///@{
+  /**
+   * A factor of LightSamples, greater than 0 (Heckbert and Herf 1997, 5); the product is rounded,
+   * and at least 1. Default is 1.
+   */
+  vtkSetMacro(SampleMultiplier, double);
+  vtkGetMacro(SampleMultiplier, double);
+  ///@}
+
+  ///@{
+  /**
+   * How the samples are spread over a light: see SamplingPatterns. Default is SOBOL.
+   */
+  vtkSetMacro(SamplingPattern, int);
+  vtkGetMacro(SamplingPattern, int);
+  ///@}
+
+  ///@{
+  /**
+   * 1, 2 or 4: how many times finer, along each edge, texels are computed before they are filtered
+   * down by a tent that reaches to the neighbours' centres. Default is 1.
+   */
+  vtkSetMacro(Supersampling, int);
+  vtkGetMacro(Supersampling, int);
+  ///@}
+
+  ///@{
+  /**
+   * The share of light that is reflected (red, green, blue), 0 to 1 each. Default is (1, 1, 1).
+   */
+  vtkSetVector3Macro(Reflectance, double);
+  vtkGetVector3Macro(Reflectance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The radiance that arrives from everywhere, shadow or not (red, green, blue), W sr^-1 m^-2, 0 to
+   * 1e30 each. Default is (0, 0, 0).
+   */
+  vtkSetVector3Macro(AmbientRadiance, double);
+  vtkGetVector3Macro(AmbientRadiance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which side is lit: see Sides. Default is AUTO.
+   */
+  vtkSetMacro(Side, int);
+  vtkGetMacro(Side, int);
+  ///@}
+
+  ///@{
+  /**
+   * The seed of random patterns: the same seed gives the same texels. Default is 0.
+   */
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+protected:
+  vtkShadowReceiver();
+  ~vtkShadowReceiver() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkShadowReceiver(const vtkShadowReceiver&) = delete;
+  void operator=(const vtkShadowReceiver&) = delete;
+
+  double TexelSize = 0.0;
+  int LightSamples = 64;
+  double SampleMultiplier = 1.0;
+  int SamplingPattern = SOBOL;
+  int Supersampling = 1;
+  double Reflectance[3] = { 1.0, 1.0, 1.0 };
+  double AmbientRadiance[3] = { 0.0, 0.0, 0.0 };
+  int Side = AUTO;
+  int Seed = 0;
+};
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSoftShadowReceiverRepresentation.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationRequestKey.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
+#include "vtkPVRenderView.h"
+#include "vtkSoftShadowPass.h"
+#include "vtkSoftShadowViewHook.h"
+
+vtkStandardNewMacro(vtkSoftShadowReceiverRepresentation);
+
+vtkSoftShadowReceiverRepresentation::vtkSoftShadowReceiverRepresentation() = default;
+vtkSoftShadowReceiverRepresentation::~vtkSoftShadowReceiverRepresentation() = default;
+
+int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
+{
+  // Composite representations add all their parts to the view, active or not, so AddToView() is the
+  // wrong place for the pass; but the superclass answers 0 here for those that are not visible.
+  if (!this->Superclass::ProcessViewRequest(request, input, output))
+  {
+    return 0;
+  }
+  if (request == vtkPVView::REQUEST_RENDER())
+  {
+    auto* view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+    if (view && vtkSoftShadowViewHook::GetPass(view))
+    {
+      vtkSoftShadowPass::Designate(this->GetActor(), this->ShadowShading);
+    }
+  }
+  return 1;
+}
+
+bool vtkSoftShadowReceiverRepresentation::RemoveFromView(vtkView* view)
+{
+  vtkSoftShadowPass::Undesignate(this->GetActor());
+  return this->Superclass::RemoveFromView(view);
+}
+
+void vtkSoftShadowReceiverRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShadowShading: " << this->ShadowShading << "\n";
+}

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSoftShadowReceiverRepresentation
+ * @brief a surface that shows the soft shadows that fall on it
+ *
+ * The representation 'Soft Shadow Receiver' of ShadowReceiver's output: a surface like any other,
+ * which installs a vtkSoftShadowPass in the render view and names its actor a receiver. The pass
+ * finds lights and occluders among whatever else the view shows.
+ */
+#ifndef vtkSoftShadowReceiverRepresentation_h
+#define vtkSoftShadowReceiverRepresentation_h
+
+#include "PenumbraViewsModule.h" // for the export macro
+#include "vtkGeometryRepresentationWithFaces.h"
+
+class PENUMBRAVIEWS_EXPORT vtkSoftShadowReceiverRepresentation
+  : public vtkGeometryRepresentationWithFaces
+{
+public:
+  static vtkSoftShadowReceiverRepresentation* New();
+  vtkTypeMacro(vtkSoftShadowReceiverRepresentation, vtkGeometryRepresentationWithFaces)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How the receiver shows its radiance, a vtkSoftShadowPass::ShadingMode. Default is SHADOW.
+   */
+  vtkSetMacro(ShadowShading, int);
+  vtkGetMacro(ShadowShading, int);
+  ///@}
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
+protected:
+  vtkSoftShadowReceiverRepresentation();
+  ~vtkSoftShadowReceiverRepresentation() override;
+
+  bool RemoveFromView(vtkView* view) override;
+
+private:
+  vtkSoftShadowReceiverRepresentation(const vtkSoftShadowReceiverRepresentation&) = delete;
+  void operator=(const vtkSoftShadowReceiverRepresentation&) = delete;
+
+  int ShadowShading = 0;
+};
+
+#endif

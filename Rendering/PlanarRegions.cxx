@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PlanarRegions.h"
+
+#include "ParallelogramFit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <tuple>
+
+namespace penumbra
+{
+namespace
+{
+
+/// Of a region's extent: how far its points may stray from its plane.
+constexpr double PlanarityTolerance = 1e-5;
+/// Neighbours that bend by less are meant to be coplanar, if their points say so too.
+const double CoplanarAngle = glm::radians(1.0);
+const double FeatureAngle = glm::radians(30.0);
+/// A polygon that is thinner than this share of its length has no normal worth comparing.
+constexpr double SliverTolerance = 1e-4;
+
+/// Newell's method: the vector area of a polygon, planar or not.
+glm::dvec3 AreaVector(const PolygonMesh& mesh, const std::vector<int>& polygon)
+{
+  const auto point = [&](std::size_t i)
+  { return mesh.Points[static_cast<std::size_t>(polygon[i % polygon.size()])]; };
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+  {
+    sum += 0.5 * glm::cross(point(i) - point(0), point(i + 1) - point(0));
+  }
+  return sum;
+}
+
+double LongestEdge(const PolygonMesh& mesh, const std::vector<int>& polygon)
+{
+  double longest = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const auto a = static_cast<std::size_t>(polygon[i]);
+    const auto b = static_cast<std::size_t>(polygon[(i + 1) % polygon.size()]);
+    longest = std::max(longest, glm::length(mesh.Points[b] - mesh.Points[a]));
+  }
+  return longest;
+}
+
+/// Disjoint sets of polygons; the smallest member stands for its set.
+class DisjointSets
+{
+public:
+  explicit DisjointSets(std::size_t count)
+    : Parent(count)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+  }
+  int Find(int i)
+  {
+    while (this->At(i) != i)
+    {
+      this->At(i) = this->At(this->At(i));
+      i = this->At(i);
+    }
+    return i;
+  }
+  void Unite(int a, int b)
+  {
+    a = this->Find(a);
+    b = this->Find(b);
+    this->At(std::max(a, b)) = std::min(a, b);
+  }
+
+private:
+  int& At(int i) { return this->Parent[static_cast<std::size_t>(i)]; }
+  std::vector<int> Parent;
+};
+
+/// An edge of a polygon: its points, the lower first.
+struct Edge
+{
+  std::pair<int, int> Points;
+  int Polygon;
+};
+
+/// The edges of all polygons that have an area; those between the same points stand side by side.
+std::vector<Edge> FindEdges(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas)
+{
+  std::vector<Edge> edges;
+  for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
+  {
+    const std::vector<int>& polygon = mesh.Polygons[p];
+    for (std::size_t i = 0; i < polygon.size() && glm::length(areas[p]) > 0.0; ++i)
+    {
+      const std::pair<int, int> ends = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
+      edges.push_back({ ends, static_cast<int>(p) });
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+    [](const Edge& a, const Edge& b)
+    { return std::tie(a.Points, a.Polygon) < std::tie(b.Points, b.Polygon); });
+  return edges;
+}
+
+/// The angle between two polygons' planes, whichever way they are wound; 0 where one is a sliver.
+double BendAngle(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, int a, int b)
+{
+  const auto i = static_cast<std::size_t>(a);
+  const auto j = static_cast<std::size_t>(b);
+  for (const std::size_t p : { i, j })
+  {
+    const double length = LongestEdge(mesh, mesh.Polygons[p]);
+    if (glm::length(areas[p]) < (SliverTolerance * length + mesh.Rounding) * length)
+    {
+      return 0.0;
+    }
+  }
+  return std::atan2(
+    glm::length(glm::cross(areas[i], areas[j])), std::abs(glm::dot(areas[i], areas[j])));
+}
+
+std::string DescribeBend(int a, int b, double angle)
+{
+  std::ostringstream text;
+  text << "polygons " << a << " and " << b << " meet at an angle of " << glm::degrees(angle)
+       << " degrees; allowed: coplanar neighbours, or edges of 30 degrees and more as a box has";
+  return text.str();
+}
+
+/// Puts coplanar polygons with a common edge into one set; the answer is empty or what forbids it.
+std::string UniteCoplanarNeighbours(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, DisjointSets& sets)
+{
+  const std::vector<Edge> edges = FindEdges(mesh, areas);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < edges.size() && edges[j].Points == edges[i].Points; ++j)
+    {
+      const double angle = BendAngle(mesh, areas, edges[i].Polygon, edges[j].Polygon);
+      if (angle > CoplanarAngle && angle < FeatureAngle)
+      {
+        return DescribeBend(edges[i].Polygon, edges[j].Polygon, angle);
+      }
+      if (angle <= CoplanarAngle)
+      {
+        sets.Unite(edges[i].Polygon, edges[j].Polygon);
+      }
+    }
+  }
+  return "";
+}
+
+/// The unit normal of the side to which more of the region's area points.
+glm::dvec3 RegionNormal(const std::vector<glm::dvec3>& areas, const std::vector<int>& polygons)
+{
+  const auto area = [&](int p) { return areas[static_cast<std::size_t>(p)]; };
+  const int largest = *std::max_element(polygons.begin(), polygons.end(),
+    [&](int a, int b) { return glm::length(area(a)) < glm::length(area(b)); });
+  glm::dvec3 sum(0.0);
+  double balance = 0.0;
+  for (const int p : polygons)
+  {
+    const double sign = glm::dot(area(p), area(largest)) < 0.0 ? -1.0 : 1.0;
+    sum += sign * area(p);
+    balance += sign * glm::length(area(p));
+  }
+  return glm::normalize(balance < 0.0 ? -sum : sum);
+}
+
+/// Fits the region's parallelogram; the answer is empty or what is wrong with it.
+std::string FitRegion(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, PlanarRegion& region)
+{
+  std::vector<int> ids;
+  for (const int p : region.Polygons)
+  {
+    const std::vector<int>& polygon = mesh.Polygons[static_cast<std::size_t>(p)];
+    ids.insert(ids.end(), polygon.begin(), polygon.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+
+  std::vector<glm::dvec3> points;
+  glm::dvec3 mean(0.0);
+  for (const int id : ids)
+  {
+    points.push_back(mesh.Points[static_cast<std::size_t>(id)]);
+    mean += (points.back() - points.front()) / static_cast<double>(ids.size());
+  }
+  mean += points.front();
+
+  const glm::dvec3 normal = RegionNormal(areas, region.Polygons);
+  double extent = 0.0;
+  double stray = 0.0;
+  for (const glm::dvec3& point : points)
+  {
+    extent = std::max(extent, glm::length(point - points.front()));
+    stray = std::max(stray, std::abs(glm::dot(point - mean, normal)));
+  }
+  const double tolerance = PlanarityTolerance * extent + 2.0 * mesh.Rounding;
+  if (stray > tolerance)
+  {
+    std::ostringstream text;
+    text << "it is not planar: the points of the region around polygon " << region.Polygons.front()
+         << " stray by " << stray << " from its plane; allowed: " << tolerance;
+    return text.str();
+  }
+  const std::optional<Parallelogram> base = FitParallelogram(points, normal);
+  if (!base)
+  {
+    return "its points lie on a line; allowed: polygons that span an area";
+  }
+  region.Base = *base;
+  return "";
+}
+
+} // namespace
+
+PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
+{
+  PlanarRegions result;
+  result.RegionOfPolygon.assign(mesh.Polygons.size(), -1);
+  for (const glm::dvec3& point : mesh.Points)
+  {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+    {
+      result.Problem = "a point has a coordinate that is not finite; allowed: finite coordinates";
+      return result;
+    }
+  }
+  std::vector<glm::dvec3> areas;
+  for (const std::vector<int>& polygon : mesh.Polygons)
+  {
+    areas.push_back(AreaVector(mesh, polygon));
+  }
+
+  DisjointSets sets(mesh.Polygons.size());
+  result.Problem = UniteCoplanarNeighbours(mesh, areas, sets);
+  if (!result.Problem.empty())
+  {
+    return result;
+  }
+  std::map<int, std::size_t> regionOfSet;
+  for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
+  {
+    if (glm::length(areas[p]) > 0.0)
+    {
+      const auto found =
+        regionOfSet.emplace(sets.Find(static_cast<int>(p)), result.Regions.size()).first;
+      result.Regions.resize(std::max(result.Regions.size(), found->second + 1));
+      result.Regions[found->second].Polygons.push_back(static_cast<int>(p));
+      result.RegionOfPolygon[p] = static_cast<int>(found->second);
+    }
+  }
+  for (PlanarRegion& region : result.Regions)
+  {
+    result.Problem = FitRegion(mesh, areas, region);
+    if (!result.Problem.empty())
+    {
+      result.Regions.clear();
+      return result;
+    }
+  }
+  if (result.Regions.empty())
+  {
+    result.Problem = "it has no polygon with an area; allowed: planar polygonal data";
+  }
+  return result;
+}
+
+} // namespace penumbra

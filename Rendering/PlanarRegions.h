@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * The receivers in a polygonal surface.
+ */
+#ifndef PlanarRegions_h
+#define PlanarRegions_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ReceiverFrame.h"
+
+#include <string>
+#include <vector>
+
+namespace penumbra
+{
+
+/// Polygons over shared points; points at the same place must have been merged.
+struct PolygonMesh
+{
+  std::vector<glm::dvec3> Points;
+  /// Each polygon's points, in order. At least three each.
+  std::vector<std::vector<int>> Polygons;
+  /// How far the coordinates may be off by the rounding of their type.
+  double Rounding = 0.0;
+};
+
+/// One receiver: a connected set of coplanar polygons.
+struct PlanarRegion
+{
+  std::vector<int> Polygons;
+  Parallelogram Base;
+};
+
+/// What FindPlanarRegions() answers.
+struct PlanarRegions
+{
+  std::vector<PlanarRegion> Regions;
+  /// Of each polygon, the index of its region; -1 for a polygon of no area.
+  std::vector<int> RegionOfPolygon;
+  /// Empty, or what makes the mesh unfit to receive shadows and what is allowed; then there are no
+  /// regions.
+  std::string Problem;
+};
+
+/**
+ * Divides a mesh into receivers: polygons that share an edge and lie in one plane belong to the
+ * same one. The winding of single polygons may differ: the receiver's front is where more of its
+ * area points.
+ *
+ * Edges at which the surface bends by 30 degrees or more (vtkPolyDataNormals' default feature
+ * angle) divide it, as those of a box do. A lesser bend means a curved surface, which is a problem,
+ * and so is a region whose points stray from its plane by more than 1e-5 of its extent plus the
+ * coordinates' rounding.
+ */
+PENUMBRARENDERING_EXPORT PlanarRegions FindPlanarRegions(const PolygonMesh& mesh);
+
+} // namespace penumbra
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShadowScene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace penumbra
+{
+namespace
+{
+
+/// Texels along the longest edge where TexelSize is 0.
+constexpr double AutomaticTexels = 512.0;
+/// An edge may be this share of a texel longer than its texels: it is rounding.
+constexpr double CountTolerance = 1e-6;
+/// Far past any limit, and finite whatever the texel size.
+constexpr double MostTexels = 1e9;
+
+/// Texels of the given size, grown by `growth`, along an edge of the receiver.
+double CountTexels(const Receiver& receiver, const glm::dvec3& edge, double growth)
+{
+  const double longest =
+    std::max(glm::length(receiver.Base.EdgeX), glm::length(receiver.Base.EdgeY));
+  const double wanted = receiver.Settings.TexelSize;
+  const double size = growth * (wanted > 0.0 ? wanted : longest / AutomaticTexels);
+  return std::clamp(std::ceil(glm::length(edge) / size - CountTolerance), 1.0, MostTexels);
+}
+
+/// What a light sends to the receiver's centre, summed over its components; its area in front where
+/// the centre sees nothing of it.
+glm::dvec2 LightOnSide(const PolygonLight& light, const ReceiverFrame& frame)
+{
+  const double power = light.Radiance.x + light.Radiance.y + light.Radiance.z;
+  const glm::dvec3 centre = frame.ToWorld({ 0.5, 0.5, 0.0 });
+  const PolygonLight seen = light.ClippedToFront(centre, frame.GetNormal());
+  return power * glm::dvec2(light.FormFactor(centre, frame.GetNormal()), seen.GetArea());
+}
+
+/// The light's numbers, to compare lights by.
+std::vector<double> GetKey(const PolygonLight& light)
+{
+  std::vector<double> key{ light.Radiance.x, light.Radiance.y, light.Radiance.z,
+    light.TwoSided ? 1.0 : 0.0 };
+  for (const glm::dvec3& v : light.GetVertices())
+  {
+    key.insert(key.end(), { v.x, v.y, v.z });
+  }
+  return key;
+}
+
+} // namespace
+
+double Receiver::GetBakedTexels() const
+{
+  const double side = this->Settings.Supersampling;
+  return side * side * this->Texels.x * this->Texels.y;
+}
+
+double ShadowScene::ChooseTexels(std::size_t first)
+{
+  double growth = 1.0;
+  while (true)
+  {
+    double largestSide = 0.0;
+    double bytes = 0.0;
+    for (std::size_t i = first; i < this->Receivers.size(); ++i)
+    {
+      const Receiver& receiver = this->Receivers[i];
+      const double supersampling = receiver.Settings.Supersampling;
+      const double x = supersampling * CountTexels(receiver, receiver.Base.EdgeX, growth);
+      const double y = supersampling * CountTexels(receiver, receiver.Base.EdgeY, growth);
+      largestSide = std::max({ largestSide, x, y });
+      bytes += BytesPerTexel * x * y;
+    }
+    if (largestSide <= MaximumTextureSide && bytes <= MaximumTextureBytes)
+    {
+      break;
+    }
+    // One step is nearly exact; a texel too many by rounding up takes another.
+    growth *=
+      1.0001 * std::max(largestSide / MaximumTextureSide, std::sqrt(bytes / MaximumTextureBytes));
+  }
+  for (std::size_t i = first; i < this->Receivers.size(); ++i)
+  {
+    Receiver& receiver = this->Receivers[i];
+    receiver.Texels = { static_cast<int>(CountTexels(receiver, receiver.Base.EdgeX, growth)),
+      static_cast<int>(CountTexels(receiver, receiver.Base.EdgeY, growth)) };
+  }
+  return growth;
+}
+
+ReceiverFrame ShadowScene::MakeFrame(const Receiver& receiver) const
+{
+  const ReceiverFrame front(receiver.Base, ReceiverFrame::Side::Front);
+  const ReceiverFrame back(receiver.Base, ReceiverFrame::Side::Back);
+  if (receiver.Settings.Side != ReceiverSide::Auto)
+  {
+    return receiver.Settings.Side == ReceiverSide::Front ? front : back;
+  }
+  glm::dvec2 atFront(0.0), atBack(0.0);
+  for (const std::size_t i : this->GetLightOrder())
+  {
+    atFront += LightOnSide(this->Lights[i], front);
+    atBack += LightOnSide(this->Lights[i], back);
+  }
+  const bool backWins = atFront.x != atBack.x ? atBack.x > atFront.x : atBack.y > atFront.y;
+  return backWins ? back : front;
+}
+
+std::vector<std::size_t> ShadowScene::GetLightOrder() const
+{
+  std::vector<std::size_t> order(this->Lights.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::sort(order.begin(), order.end(),
+    [this](std::size_t a, std::size_t b)
+    { return GetKey(this->Lights[a]) < GetKey(this->Lights[b]); });
+  return order;
+}
+
+} // namespace penumbra

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * Everything that a bake depends on.
+ */
+#ifndef ShadowScene_h
+#define ShadowScene_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "PolygonLight.h"
+#include "ReceiverFrame.h"
+#include "ShadowSettings.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace penumbra
+{
+
+/// A triangulated surface in world coordinates.
+struct Surface
+{
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  std::vector<glm::dvec3> Points;
+  std::vector<Triangle> Triangles;
+  /// Of each triangle, the receiver region that it belongs to; empty if the surface receives
+  /// nothing.
+  std::vector<int> Regions;
+  /// How far the coordinates may be off by the rounding of their type.
+  double Rounding = 0.0;
+};
+
+/// A receiver: one planar region of one surface.
+struct Receiver
+{
+  std::size_t Surface = 0;
+  int Region = 0;
+  Parallelogram Base;
+  ReceiverSettings Settings;
+  /// Texels along EdgeX and EdgeY.
+  glm::ivec2 Texels{ 1 };
+
+  /// Of the texels times Supersampling squared.
+  double GetBakedTexels() const;
+};
+
+/**
+ * The surfaces, receivers and lights of a bake, free of VTK. All surfaces block light, those of the
+ * receivers among them; the lights' own surfaces do not.
+ */
+struct PENUMBRARENDERING_EXPORT ShadowScene
+{
+  std::vector<Surface> Surfaces;
+  std::vector<Receiver> Receivers;
+  std::vector<PolygonLight> Lights;
+
+  /// The largest texture side and the most bytes that a surface's textures may take.
+  static constexpr int MaximumTextureSide = 16384;
+  static constexpr double MaximumTextureBytes = 256.0 * 1024 * 1024;
+  /// Bytes of the textures that hold a texel's radiance and variance.
+  static constexpr int BytesPerTexel = 20;
+
+  /**
+   * Sets the texels of the receivers from `first` on, which share a texture: along each edge as
+   * many of TexelSize as cover it (0: 512 along the receiver's longest edge). Where they would pass
+   * the limits above, the texels grow; the answer is by how much, 1 if not at all.
+   */
+  double ChooseTexels(std::size_t first);
+
+  /// The frame of a receiver with its lit side, which Auto chooses by the light that its centre
+  /// gets.
+  ReceiverFrame MakeFrame(const Receiver& receiver) const;
+
+  /**
+   * The lights in an order that depends on nothing but the lights themselves: sums over them come
+   * out the same, to the bit, in whatever order they were added.
+   */
+  std::vector<std::size_t> GetLightOrder() const;
+};
+
+} // namespace penumbra
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * GLM's vectors and matrices. VTK's wrapping tools, which read headers to make Python modules of
+ * them, take hours over GLM's: they do without.
+ */
+#ifndef Vectors_h
+#define Vectors_h
+
+#ifndef __VTK_WRAP__
+#include <glm/glm.hpp>
+#endif
+
+#endif

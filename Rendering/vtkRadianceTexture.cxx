@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenGLLoader.h"
+
+#include "vtkRadianceTexture.h"
+
+#include "FullScreenTriangle.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkRadianceDownsampleFS.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+vtkStandardNewMacro(vtkRadianceTexture);
+
+namespace
+{
+
+/// Around each region of an atlas: enough for MipLevels.
+constexpr int GutterTexels = 8;
+constexpr int MipLevels = 3;
+constexpr int AllMipLevels = 1000; // OpenGL's own default
+constexpr float Anisotropy = 4.0f;
+
+/// True if the allocation went through.
+bool AllocateFloats(
+  vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const glm::ivec2& size, int components)
+{
+  while (glGetError() != GL_NO_ERROR)
+  {
+    // Errors of others must not be taken for a refusal.
+  }
+  texture->SetContext(window);
+  return texture->Allocate2D(static_cast<unsigned int>(size.x), static_cast<unsigned int>(size.y),
+           components, VTK_FLOAT) &&
+    glGetError() == GL_NO_ERROR;
+}
+
+} // namespace
+
+vtkRadianceTexture::vtkRadianceTexture()
+{
+  for (vtkTextureObject* texture : { this->Irradiance.Get(), this->Variance.Get() })
+  {
+    texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  }
+}
+
+vtkRadianceTexture::~vtkRadianceTexture() = default;
+
+bool vtkRadianceTexture::PlaceRegions(const std::vector<glm::ivec2>& sizes, int largestSide)
+{
+  // Shelves: the regions side by side in rows, the highest first, in a texture that is about
+  // square.
+  this->Gutter = sizes.size() > 1 ? GutterTexels : 0;
+  std::vector<std::size_t> order(sizes.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return sizes[a].y > sizes[b].y; });
+  double area = 0.0;
+  int width = 0;
+  for (const glm::ivec2& size : sizes)
+  {
+    const glm::ivec2 padded = size + 2 * this->Gutter;
+    area += static_cast<double>(padded.x) * padded.y;
+    width = std::max(width, padded.x);
+  }
+  width = std::max(width, std::min(static_cast<int>(std::ceil(std::sqrt(area))), largestSide));
+
+  this->Regions.assign(sizes.size(), Region());
+  glm::ivec2 place(0);
+  int shelf = 0;
+  for (const std::size_t i : order)
+  {
+    const glm::ivec2 padded = sizes[i] + 2 * this->Gutter;
+    if (place.x + padded.x > width)
+    {
+      place = { 0, place.y + shelf };
+      shelf = 0;
+    }
+    this->Regions[i] = { place + this->Gutter, sizes[i] };
+    place.x += padded.x;
+    shelf = std::max(shelf, padded.y);
+  }
+  this->Size = { width, place.y + shelf };
+  return this->Size.x <= largestSide && this->Size.y <= largestSide;
+}
+
+bool vtkRadianceTexture::Allocate(
+  vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes)
+{
+  this->ReleaseGraphicsResources();
+  this->Window = window;
+  const int largestSide = vtkTextureObject::GetMaximumTextureSize(window);
+  if (!this->PlaceRegions(sizes, largestSide))
+  {
+    vtkErrorMacro("The " << sizes.size() << " receivers of a surface need a texture of "
+                         << this->Size.x << " x " << this->Size.y << " texels; OpenGL allows "
+                         << largestSide << " a side. Use a larger TexelSize.");
+    return false;
+  }
+  if (!AllocateFloats(this->Irradiance, window, this->Size, 4) ||
+    !AllocateFloats(this->Variance, window, this->Size, 1))
+  {
+    vtkErrorMacro("OpenGL refused a texture of " << this->Size.x << " x " << this->Size.y
+                                                 << " texels. Use a larger TexelSize.");
+    this->ReleaseGraphicsResources();
+    return false;
+  }
+
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglClearColor savedColor(state);
+  this->BindAsTarget({ glm::ivec2(0), this->Size }, 0, this->Size.y, false);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT);
+  return true;
+}
+
+void vtkRadianceTexture::BindAsTarget(const Region& region, int firstRow, int lastRow, bool add)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  this->Framebuffer->SetContext(this->Window);
+  this->Framebuffer->Bind(GL_FRAMEBUFFER);
+  this->Framebuffer->AddColorAttachment(0, this->Irradiance);
+  this->Framebuffer->AddColorAttachment(1, this->Variance);
+  this->Framebuffer->ActivateDrawBuffers(2);
+
+  for (unsigned int capability : { GL_DEPTH_TEST, GL_CULL_FACE })
+  {
+    state->vtkglDisable(capability);
+  }
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->SetEnumState(GL_BLEND, add);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  state->vtkglViewport(0, 0, this->Size.x, this->Size.y);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  const int bottom = firstRow == 0 ? -this->Gutter : firstRow;
+  const int top = lastRow == region.Size.y ? lastRow + this->Gutter : lastRow;
+  state->vtkglScissor(region.Origin.x - this->Gutter, region.Origin.y + bottom,
+    region.Size.x + 2 * this->Gutter, top - bottom);
+}
+
+void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& region, int factor)
+{
+  vtkShaderProgram* program =
+    penumbra::ReadyFullScreenProgram(this->Window, vtkRadianceDownsampleFS);
+  if (!program)
+  {
+    vtkErrorMacro("The shader that filters radiance textures did not compile.");
+    return;
+  }
+  this->BindAsTarget(region, 0, region.Size.y, false);
+  fine->Irradiance->Activate();
+  fine->Variance->Activate();
+  program->SetUniformi("radiance", fine->Irradiance->GetTextureUnit());
+  program->SetUniformi("variance", fine->Variance->GetTextureUnit());
+  program->SetUniformi("factor", factor);
+  program->SetUniform2i("regionOrigin", &region.Origin.x);
+  program->SetUniform2i("regionSize", &region.Size.x);
+  penumbra::DrawFullScreenTriangle();
+  fine->Variance->Deactivate();
+  fine->Irradiance->Deactivate();
+}
+
+void vtkRadianceTexture::GenerateMipmaps()
+{
+  this->Irradiance->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
+  this->Irradiance->SetMagnificationFilter(vtkTextureObject::Linear);
+  this->Irradiance->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
+  this->Irradiance->SetMaximumAnisotropicFiltering(Anisotropy);
+  this->Irradiance->Activate();
+  this->Irradiance->SendParameters();
+  glGenerateMipmap(GL_TEXTURE_2D);
+  this->Irradiance->Deactivate();
+}
+
+vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
+{
+  const auto count =
+    static_cast<std::size_t>(region.Size.x) * static_cast<std::size_t>(region.Size.y);
+  Texels texels;
+  texels.Irradiance.resize(count);
+  texels.Variance.resize(count);
+  vtkOpenGLState* state = this->Window->GetState();
+  state->Push();
+  this->BindAsTarget(region, 0, region.Size.y, false);
+  state->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
+  const auto read = [&](unsigned int attachment, unsigned int format, float* to)
+  {
+    state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0 + attachment);
+    glReadPixels(
+      region.Origin.x, region.Origin.y, region.Size.x, region.Size.y, format, GL_FLOAT, to);
+  };
+  read(0, GL_RGBA, &texels.Irradiance.front().x);
+  read(1, GL_RED, texels.Variance.data());
+  state->Pop();
+  return texels;
+}
+
+std::size_t vtkRadianceTexture::GetBytes() const
+{
+  const auto texels =
+    static_cast<std::size_t>(this->Size.x) * static_cast<std::size_t>(this->Size.y);
+  std::size_t bytes = texels * sizeof(float); // the variance
+  const int levels = this->Gutter > 0 ? MipLevels : AllMipLevels;
+  glm::ivec2 size = this->Size;
+  for (int level = 0; level <= levels && texels > 0; ++level)
+  {
+    bytes +=
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * sizeof(glm::vec4);
+    if (size == glm::ivec2(1))
+    {
+      break;
+    }
+    size = glm::max(size / 2, glm::ivec2(1));
+  }
+  return bytes;
+}
+
+void vtkRadianceTexture::ReleaseGraphicsResources()
+{
+  if (this->Window)
+  {
+    this->Irradiance->ReleaseGraphicsResources(this->Window);
+    this->Variance->ReleaseGraphicsResources(this->Window);
+    this->Framebuffer->ReleaseGraphicsResources(this->Window);
+  }
+  this->Regions.clear();
+  this->Size = glm::ivec2(0);
+}
+
+void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
+  os << indent << "Regions: " << this->Regions.size() << "\n";
+}

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkRadianceTexture
+ * @brief the radiance of the receivers of one surface, as a texture
+ *
+ * An atlas: each receiver has a region of texels. Per texel it holds, in single precision, the
+ * irradiance over pi from all lights (three components), the mean of its components if nothing were
+ * blocked, and the variance of the mean of the three: 20 bytes. Reflectance and ambient radiance
+ * are not part of it, so that changing them costs nothing.
+ *
+ * Around each region of an atlas of several, GutterTexels repeat its border, so that mip levels up
+ * to log2(GutterTexels) never mix two receivers; a texture with one receiver has no gutter and all
+ * levels.
+ */
+#ifndef vtkRadianceTexture_h
+#define vtkRadianceTexture_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "vtkNew.h"                  // for vtkNew
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for vtkWeakPointer
+
+#include "Vectors.h"
+#include <vector> // for texels
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+
+class PENUMBRARENDERING_EXPORT vtkRadianceTexture : public vtkObject
+{
+public:
+  static vtkRadianceTexture* New();
+  vtkTypeMacro(vtkRadianceTexture, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Texels of a receiver: the first one and how many, without the gutter.
+  struct Region
+  {
+    glm::ivec2 Origin{ 0 };
+    glm::ivec2 Size{ 1 };
+  };
+
+  /// What Download() gives of a region, i (along EdgeX) fastest.
+  struct Texels
+  {
+    std::vector<glm::vec4> Irradiance; ///< over pi; a: the mean if nothing were blocked
+    std::vector<float> Variance;
+  };
+
+  /**
+   * Make room for receivers of the given sizes in texels, all black. False, after vtkErrorMacro, if
+   * they do not fit into one texture or OpenGL refuses.
+   */
+  bool Allocate(vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes);
+
+  /**
+   * The receivers' places, in the order of their sizes in Allocate().
+   */
+  const std::vector<Region>& GetRegions() const { return this->Regions; }
+
+  /**
+   * Width and height of the whole texture.
+   */
+  const glm::ivec2& GetSize() const { return this->Size; }
+
+  /**
+   * Make the rows [firstRow, lastRow) of a region, with the gutter beside them (and below the first
+   * and above the last row of the region), the target of drawing, with two outputs:
+   * vtkRadianceResolveFS.glsl and vtkRadianceDownsampleFS.glsl say what. With `add`, what is drawn
+   * adds to what is there. The caller saves and restores vtkOpenGLState around it.
+   */
+  void BindAsTarget(const Region& region, int firstRow, int lastRow, bool add);
+
+  /**
+   * Fill a region from a texture that is `factor` times finer and holds one receiver.
+   */
+  void Downsample(vtkRadianceTexture* fine, const Region& region, int factor);
+
+  /**
+   * Make the mip levels, after the last region is filled.
+   */
+  void GenerateMipmaps();
+
+  /**
+   * Read a region back.
+   */
+  Texels Download(const Region& region);
+
+  /**
+   * The texture of irradiance, to be shown: GL_RGBA32F.
+   */
+  vtkTextureObject* GetIrradiance() { return this->Irradiance; }
+
+  /**
+   * The bytes that the textures take, mip levels among them.
+   */
+  std::size_t GetBytes() const;
+
+  /**
+   * Free the textures.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkRadianceTexture();
+  ~vtkRadianceTexture() override;
+
+private:
+  vtkRadianceTexture(const vtkRadianceTexture&) = delete;
+  void operator=(const vtkRadianceTexture&) = delete;
+
+  bool PlaceRegions(const std::vector<glm::ivec2>& sizes, int largestSide);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkNew<vtkTextureObject> Irradiance;
+  vtkNew<vtkTextureObject> Variance;
+  vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
+  std::vector<Region> Regions;
+  glm::ivec2 Size{ 0 };
+  int Gutter = 0;
+};
+
+#endif

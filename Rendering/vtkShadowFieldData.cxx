@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkShadowFieldData.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkShadowFieldData);
+
+namespace
+{
+
+/// Visits every setting with its name: one list serves reading and writing.
+template <typename Settings, typename Visitor>
+void VisitReceiver(Settings& settings, Visitor&& visit)
+{
+  visit("TexelSize", settings.TexelSize);
+  visit("LightSamples", settings.LightSamples);
+  visit("SampleMultiplier", settings.SampleMultiplier);
+  visit("SamplingPattern", settings.SamplingPattern);
+  visit("Supersampling", settings.Supersampling);
+  visit("Reflectance", settings.Reflectance);
+  visit("AmbientRadiance", settings.AmbientRadiance);
+  visit("Side", settings.Side);
+  visit("Seed", settings.Seed);
+}
+
+template <typename Settings, typename Visitor>
+void VisitLight(Settings& settings, Visitor&& visit)
+{
+  visit("Shape", settings.Shape);
+  visit("Origin", settings.Origin);
+  visit("Point1", settings.Point1);
+  visit("Point2", settings.Point2);
+  visit("Radiance", settings.Radiance);
+  visit("TwoSided", settings.TwoSided);
+}
+
+/// Adds an array for each setting.
+struct Writer
+{
+  vtkFieldData* FieldData;
+
+  void operator()(const char* name, double value) { this->Add<vtkDoubleArray>(name, &value, 1); }
+  void operator()(const char* name, int value) { this->Add<vtkIntArray>(name, &value, 1); }
+  void operator()(const char* name, bool value) { (*this)(name, value ? 1 : 0); }
+  void operator()(const char* name, penumbra::ReceiverSide value)
+  {
+    (*this)(name, static_cast<int>(value));
+  }
+  void operator()(const char* name, penumbra::LightShape value)
+  {
+    (*this)(name, static_cast<int>(value));
+  }
+  void operator()(const char* name, const glm::dvec3& value)
+  {
+    this->Add<vtkDoubleArray>(name, &value.x, 3);
+  }
+
+  template <typename Array, typename Value>
+  void Add(const char* name, const Value* values, int components)
+  {
+    vtkNew<Array> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->InsertNextTypedTuple(values);
+    this->FieldData->AddArray(array);
+  }
+};
+
+/// Takes each setting from its array; Complete ends up false if one is missing.
+struct Reader
+{
+  vtkFieldData* FieldData;
+  bool Complete = true;
+
+  double Get(const char* name, int component, int components)
+  {
+    vtkDataArray* array = this->FieldData->GetArray(name);
+    if (!array || array->GetNumberOfTuples() < 1 || array->GetNumberOfComponents() != components)
+    {
+      this->Complete = false;
+      return 0.0;
+    }
+    return array->GetComponent(0, component);
+  }
+  void operator()(const char* name, double& value) { value = this->Get(name, 0, 1); }
+  void operator()(const char* name, int& value) { value = static_cast<int>(this->Get(name, 0, 1)); }
+  void operator()(const char* name, bool& value) { value = this->Get(name, 0, 1) != 0.0; }
+  void operator()(const char* name, penumbra::ReceiverSide& value)
+  {
+    value = static_cast<penumbra::ReceiverSide>(this->Get(name, 0, 1));
+  }
+  void operator()(const char* name, penumbra::LightShape& value)
+  {
+    value = static_cast<penumbra::LightShape>(this->Get(name, 0, 1));
+  }
+  void operator()(const char* name, glm::dvec3& value)
+  {
+    value = { this->Get(name, 0, 3), this->Get(name, 1, 3), this->Get(name, 2, 3) };
+  }
+};
+
+} // namespace
+
+void vtkShadowFieldData::Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData)
+{
+  VisitReceiver(settings, Writer{ fieldData });
+}
+
+void vtkShadowFieldData::Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData)
+{
+  VisitLight(settings, Writer{ fieldData });
+}
+
+std::optional<penumbra::ReceiverSettings> vtkShadowFieldData::ReadReceiver(vtkFieldData* fieldData)
+{
+  penumbra::ReceiverSettings settings;
+  Reader reader{ fieldData };
+  if (!fieldData)
+  {
+    return std::nullopt;
+  }
+  VisitReceiver(settings, reader);
+  return reader.Complete ? std::make_optional(settings) : std::nullopt;
+}
+
+std::optional<penumbra::LightSettings> vtkShadowFieldData::ReadLight(vtkFieldData* fieldData)
+{
+  penumbra::LightSettings settings;
+  Reader reader{ fieldData };
+  if (!fieldData)
+  {
+    return std::nullopt;
+  }
+  VisitLight(settings, reader);
+  return reader.Complete ? std::make_optional(settings) : std::nullopt;
+}

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkShadowFieldData
+ * @brief the settings of lights and receivers as field data
+ *
+ * Lights and receivers carry their settings as field data, so that they travel with the data
+ * through filters, to a server and into files. Each property of vtkAreaLightSource or
+ * vtkShadowReceiver is an array of its own name.
+ */
+#ifndef vtkShadowFieldData_h
+#define vtkShadowFieldData_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ShadowSettings.h"
+#include "vtkObject.h"
+
+#include <optional> // for return values
+
+class vtkFieldData;
+
+class PENUMBRARENDERING_EXPORT vtkShadowFieldData : public vtkObject
+{
+public:
+  static vtkShadowFieldData* New();
+  vtkTypeMacro(vtkShadowFieldData, vtkObject)
+
+  ///@{
+  /**
+   * Write the settings into the field data, replacing those that are there.
+   */
+  static void Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData);
+  static void Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData);
+  ///@}
+
+  ///@{
+  /**
+   * Read settings; nothing is returned if the field data (which may be nullptr) lacks any of the
+   * arrays. The values are returned as they are: ask them for FindProblem().
+   */
+  static std::optional<penumbra::ReceiverSettings> ReadReceiver(vtkFieldData* fieldData);
+  static std::optional<penumbra::LightSettings> ReadLight(vtkFieldData* fieldData);
+  ///@}
+
+protected:
+  vtkShadowFieldData() = default;
+  ~vtkShadowFieldData() override = default;
+
+private:
+  vtkShadowFieldData(const vtkShadowFieldData&) = delete;
+  void operator=(const vtkShadowFieldData&) = delete;
+};
+
+#endif

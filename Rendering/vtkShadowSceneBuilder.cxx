@@ -1,0 +1,344 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkShadowSceneBuilder.h"
+
+#include "PlanarRegions.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkShadowFieldData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStaticPointLocator.h"
+#include "vtkTriangleFilter.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+vtkStandardNewMacro(vtkShadowSceneBuilder);
+
+namespace
+{
+
+/// Of each cell, the receiver region that it belongs to.
+constexpr const char* RegionArray = "PenumbraRegion";
+
+glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
+{
+  glm::dmat4 result(1.0);
+  for (int row = 0; matrix && row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      result[column][row] = matrix->GetElement(row, column);
+    }
+  }
+  return result;
+}
+
+/// Fills the surface's points, in world coordinates, and how far the rounding of their type puts
+/// them off.
+void TransformPoints(vtkPolyData* data, const glm::dmat4& matrix, penumbra::Surface& surface)
+{
+  vtkPoints* points = data->GetPoints();
+  if (!points || points->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  surface.Points.resize(static_cast<std::size_t>(points->GetNumberOfPoints()));
+  vtkSMPTools::For(0, points->GetNumberOfPoints(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        double p[3];
+        points->GetPoint(i, p); // thread safe, unlike the overload that returns a pointer
+        surface.Points[static_cast<std::size_t>(i)] =
+          glm::dvec3(matrix * glm::dvec4(p[0], p[1], p[2], 1.0));
+      }
+    });
+  double bounds[6];
+  points->GetBounds(bounds);
+  const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(bounds[0], bounds[2], bounds[4])),
+    glm::abs(glm::dvec3(bounds[1], bounds[3], bounds[5])));
+  const glm::dmat3 size(glm::abs(glm::dvec3(matrix[0])), glm::abs(glm::dvec3(matrix[1])),
+    glm::abs(glm::dvec3(matrix[2])));
+  const bool isDouble = points->GetDataType() == VTK_DOUBLE;
+  surface.Rounding =
+    glm::length(size * largest) * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
+}
+
+bool IsFinite(const glm::dvec3& p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// The polygons over the surface's points, of which those at the same place become one.
+penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Surface& surface)
+{
+  penumbra::PolygonMesh mesh;
+  mesh.Points = surface.Points;
+  mesh.Rounding = surface.Rounding;
+  std::vector<vtkIdType> merged(mesh.Points.size());
+  std::iota(merged.begin(), merged.end(), vtkIdType{ 0 });
+  if (!merged.empty() && std::all_of(mesh.Points.begin(), mesh.Points.end(), IsFinite))
+  {
+    vtkNew<vtkStaticPointLocator> locator;
+    locator->SetDataSet(polygons);
+    locator->BuildLocator();
+    locator->MergePoints(0.0, merged.data());
+  }
+  vtkNew<vtkIdList> cell;
+  for (vtkIdType i = 0; i < polygons->GetNumberOfPolys(); ++i)
+  {
+    polygons->GetPolys()->GetCellAtId(i, cell);
+    std::vector<int>& polygon = mesh.Polygons.emplace_back();
+    for (vtkIdType j = 0; j < cell->GetNumberOfIds(); ++j)
+    {
+      polygon.push_back(static_cast<int>(merged[static_cast<std::size_t>(cell->GetId(j))]));
+    }
+  }
+  return mesh;
+}
+
+/// Only polygons: vertices and lines neither block nor receive, and strips become triangles.
+vtkSmartPointer<vtkPolyData> WithoutStrips(vtkPolyData* data)
+{
+  auto polygons = vtkSmartPointer<vtkPolyData>::New();
+  polygons->SetPoints(data->GetPoints());
+  if (data->GetNumberOfStrips() == 0)
+  {
+    polygons->SetPolys(data->GetPolys());
+    return polygons;
+  }
+  // vtkTriangleFilter leaves the order of polygons as it is, strips after them.
+  vtkNew<vtkPolyData> surfaces;
+  surfaces->SetPoints(data->GetPoints());
+  surfaces->SetPolys(data->GetPolys());
+  surfaces->SetStrips(data->GetStrips());
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputData(surfaces);
+  triangulate->Update();
+  polygons->ShallowCopy(triangulate->GetOutput());
+  return polygons;
+}
+
+/// Fills the surface's triangles, and their regions if the data have RegionArray.
+void Triangulate(vtkPolyData* polygons, penumbra::Surface& surface)
+{
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputData(polygons);
+  triangulate->PassVertsOff();
+  triangulate->PassLinesOff();
+  triangulate->Update();
+  vtkPolyData* triangles = triangulate->GetOutput();
+  auto* regions = vtkIntArray::SafeDownCast(triangles->GetCellData()->GetArray(RegionArray));
+  vtkNew<vtkIdList> cell;
+  for (vtkIdType i = 0; i < triangles->GetPolys()->GetNumberOfCells(); ++i)
+  {
+    triangles->GetPolys()->GetCellAtId(i, cell);
+    surface.Triangles.push_back({ static_cast<std::uint32_t>(cell->GetId(0)),
+      static_cast<std::uint32_t>(cell->GetId(1)), static_cast<std::uint32_t>(cell->GetId(2)) });
+    if (regions)
+    {
+      surface.Regions.push_back(regions->GetValue(i));
+    }
+  }
+}
+
+/// Drops triangles with a point that is not finite; the answer is how many there were.
+std::size_t DropInfiniteTriangles(penumbra::Surface& surface)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  {
+    const penumbra::Surface::Triangle triangle = surface.Triangles[i];
+    if (std::all_of(triangle.begin(), triangle.end(),
+          [&](std::uint32_t id) { return IsFinite(surface.Points[id]); }))
+    {
+      surface.Triangles[kept] = triangle;
+      if (!surface.Regions.empty())
+      {
+        surface.Regions[kept] = surface.Regions[i];
+      }
+      ++kept;
+    }
+  }
+  const std::size_t dropped = surface.Triangles.size() - kept;
+  surface.Triangles.resize(kept);
+  surface.Regions.resize(surface.Regions.empty() ? 0 : kept);
+  return dropped;
+}
+
+/// Calls visit() for each leaf that is visible; a block's own visibility overrides its parents'.
+template <typename Visitor>
+void VisitVisibleLeaves(
+  vtkDataObject* data, vtkCompositeDataDisplayAttributes* attributes, bool visible, Visitor&& visit)
+{
+  if (data && attributes && attributes->HasBlockVisibility(data))
+  {
+    visible = attributes->GetBlockVisibility(data);
+  }
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkDataObjectTreeIterator> it;
+    it.TakeReference(tree->NewTreeIterator());
+    it->VisitOnlyLeavesOff();
+    it->TraverseSubTreeOff();
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      VisitVisibleLeaves(it->GetCurrentDataObject(), attributes, visible, visit);
+    }
+  }
+  else if (auto* leaf = vtkPolyData::SafeDownCast(data); leaf && visible)
+  {
+    visit(leaf);
+  }
+}
+
+} // namespace
+
+vtkShadowSceneBuilder::vtkShadowSceneBuilder() = default;
+vtkShadowSceneBuilder::~vtkShadowSceneBuilder() = default;
+
+void vtkShadowSceneBuilder::AddData(vtkDataObject* data, vtkMatrix4x4* matrix, int roles,
+  const std::string& name, vtkCompositeDataDisplayAttributes* attributes)
+{
+  VisitVisibleLeaves(data, attributes, true,
+    [&](vtkPolyData* leaf) { this->AddPolyData(leaf, matrix, roles, name); });
+}
+
+void vtkShadowSceneBuilder::AddPolyData(
+  vtkPolyData* data, vtkMatrix4x4* matrix, int roles, const std::string& name)
+{
+  if (const auto light = vtkShadowFieldData::ReadLight(data->GetFieldData()))
+  {
+    if (roles & Role::Light)
+    {
+      this->AddLight(*light, matrix, name);
+    }
+    return;
+  }
+  std::optional<penumbra::ReceiverSettings> settings;
+  if (roles & (Role::Receiver | Role::DefaultReceiver))
+  {
+    settings = vtkShadowFieldData::ReadReceiver(data->GetFieldData());
+  }
+  if (!settings && (roles & Role::DefaultReceiver))
+  {
+    settings.emplace();
+  }
+  if (settings || (roles & Role::Occluder))
+  {
+    this->AddSurface(data, matrix, settings ? &*settings : nullptr, name);
+  }
+}
+
+void vtkShadowSceneBuilder::AddLight(
+  const penumbra::LightSettings& settings, vtkMatrix4x4* matrix, const std::string& name)
+{
+  const std::string problem = settings.FindProblem();
+  if (!problem.empty())
+  {
+    vtkErrorMacro("Light '" << name << "': " << problem << ". It is left out.");
+    return;
+  }
+  this->Scene.Lights.push_back(settings.MakeLight().Transformed(ToGlm(matrix)));
+}
+
+void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
+  const penumbra::ReceiverSettings* receiver, const std::string& name)
+{
+  vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
+  if (polygons->GetNumberOfPolys() == 0 && !receiver)
+  {
+    return;
+  }
+  penumbra::Surface surface;
+  TransformPoints(polygons, ToGlm(matrix), surface);
+  if (receiver)
+  {
+    this->AddReceivers(polygons, *receiver, surface, name);
+  }
+  Triangulate(polygons, surface);
+  if (const std::size_t dropped = DropInfiniteTriangles(surface))
+  {
+    vtkErrorMacro("Surface '" << name << "': " << dropped
+                              << " triangles have a coordinate that is not finite; allowed: finite "
+                                 "coordinates. They are left out.");
+  }
+  this->Scene.Surfaces.push_back(std::move(surface));
+}
+
+void vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
+  const penumbra::ReceiverSettings& settings, const penumbra::Surface& surface,
+  const std::string& name)
+{
+  std::string problem = settings.FindProblem();
+  penumbra::PlanarRegions found;
+  if (problem.empty())
+  {
+    found = penumbra::FindPlanarRegions(MakePolygonMesh(polygons, surface));
+    problem = found.Problem;
+  }
+  if (!problem.empty())
+  {
+    vtkErrorMacro("Receiver '" << name << "': " << problem << ". It is drawn without shadows.");
+    return;
+  }
+
+  const std::size_t first = this->Scene.Receivers.size();
+  for (std::size_t i = 0; i < found.Regions.size(); ++i)
+  {
+    penumbra::Receiver receiver;
+    receiver.Surface = this->Scene.Surfaces.size();
+    receiver.Region = static_cast<int>(i);
+    receiver.Base = found.Regions[i].Base;
+    receiver.Settings = settings;
+    this->Scene.Receivers.push_back(receiver);
+  }
+  const double growth = this->Scene.ChooseTexels(first);
+  if (growth > 1.0)
+  {
+    vtkWarningMacro("Receiver '" << name << "': TexelSize is too small; its textures would pass "
+                                 << penumbra::ShadowScene::MaximumTextureSide
+                                 << " texels a side or 256 MiB. Texels " << growth
+                                 << " times as large are used.");
+  }
+
+  vtkNew<vtkIntArray> regions;
+  regions->SetName(RegionArray);
+  for (const int region : found.RegionOfPolygon)
+  {
+    regions->InsertNextValue(region);
+  }
+  polygons->GetCellData()->AddArray(regions);
+}
+
+std::string vtkShadowSceneBuilder::FindReceiverProblem(vtkPolyData* data)
+{
+  vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
+  penumbra::Surface surface;
+  TransformPoints(polygons, glm::dmat4(1.0), surface);
+  return penumbra::FindPlanarRegions(MakePolygonMesh(polygons, surface)).Problem;
+}
+
+void vtkShadowSceneBuilder::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Surfaces: " << this->Scene.Surfaces.size() << "\n";
+  os << indent << "Receivers: " << this->Scene.Receivers.size() << "\n";
+  os << indent << "Lights: " << this->Scene.Lights.size() << "\n";
+}

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkShadowSceneBuilder
+ * @brief turns VTK's data into the scene of a bake
+ *
+ * Data come in by AddData(), each with the matrix of its actor and with the roles that it may play,
+ * and go into a penumbra::ShadowScene: polygons, triangle strips and triangles as surfaces that
+ * block light, planar regions of data with receiver settings as receivers, and data with light
+ * settings as lights.
+ *
+ * Data that make no sense (a curved receiver, a light without area, settings out of range) are
+ * reported by vtkErrorMacro, with the name under which they came in, and left out; the rest is
+ * kept.
+ */
+#ifndef vtkShadowSceneBuilder_h
+#define vtkShadowSceneBuilder_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ShadowScene.h"
+#include "vtkObject.h"
+
+#include <string> // for names
+
+class vtkCompositeDataDisplayAttributes;
+class vtkDataObject;
+class vtkMatrix4x4;
+class vtkPolyData;
+
+class PENUMBRARENDERING_EXPORT vtkShadowSceneBuilder : public vtkObject
+{
+public:
+  static vtkShadowSceneBuilder* New();
+  vtkTypeMacro(vtkShadowSceneBuilder, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What data may become; combined by |. Data with light settings are lights or nothing.
+  enum Role
+  {
+    Receiver = 1,        ///< if it carries receiver settings
+    DefaultReceiver = 2, ///< with default settings if it carries none
+    Occluder = 4,
+    Light = 8
+  };
+
+  /**
+   * Add polygonal data, or composite data of them, in the coordinates of `matrix` (nullptr: the
+   * world's). `name` names them in error messages. Blocks that `attributes` (may be nullptr) hides
+   * are left out.
+   */
+  void AddData(vtkDataObject* data, vtkMatrix4x4* matrix, int roles, const std::string& name,
+    vtkCompositeDataDisplayAttributes* attributes = nullptr);
+
+  /**
+   * The scene so far.
+   */
+  const penumbra::ShadowScene& GetScene() const { return this->Scene; }
+
+  /**
+   * What makes polygonal data unfit to receive shadows, and what is allowed; empty if they are fit.
+   */
+  static std::string FindReceiverProblem(vtkPolyData* data);
+
+protected:
+  vtkShadowSceneBuilder();
+  ~vtkShadowSceneBuilder() override;
+
+private:
+  vtkShadowSceneBuilder(const vtkShadowSceneBuilder&) = delete;
+  void operator=(const vtkShadowSceneBuilder&) = delete;
+
+  void AddPolyData(vtkPolyData* data, vtkMatrix4x4* matrix, int roles, const std::string& name);
+  void AddLight(
+    const penumbra::LightSettings& settings, vtkMatrix4x4* matrix, const std::string& name);
+  void AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
+    const penumbra::ReceiverSettings* receiver, const std::string& name);
+  void AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,
+    const penumbra::Surface& surface, const std::string& name);
+
+  penumbra::ShadowScene Scene;
+};
+
+#endif

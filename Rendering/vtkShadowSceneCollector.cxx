@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkShadowSceneCollector.h"
+
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkAssemblyNode.h"
+#include "vtkAssemblyPath.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShadowSceneBuilder.h"
+#include "vtkSoftShadowPass.h"
+#include "vtkVersionMacros.h"
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
+#include "vtkCompositePolyDataMapper2.h"
+#else
+#include "vtkCompositePolyDataMapper.h"
+#endif
+
+#include <cstring>
+#include <sstream>
+#include <string>
+
+vtkStandardNewMacro(vtkShadowSceneCollector);
+
+namespace
+{
+
+/// An actor that is drawn as a surface, as a prop of its own or as a part of an assembly.
+struct Part
+{
+  vtkActor* Actor;
+  vtkSmartPointer<vtkMatrix4x4> Matrix;
+  vtkDataObject* Data;
+  vtkCompositeDataDisplayAttributes* Attributes;
+};
+
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0) // the two became one
+using CompositeMapper = vtkCompositePolyDataMapper2;
+#else
+using CompositeMapper = vtkCompositePolyDataMapper;
+#endif
+
+vtkCompositeDataDisplayAttributes* GetAttributes(vtkMapper* mapper)
+{
+  auto* composite = CompositeMapper::SafeDownCast(mapper);
+  return composite ? composite->GetCompositeDataDisplayAttributes() : nullptr;
+}
+
+bool IsDrawnAsSurface(vtkActor* actor)
+{
+  return actor->GetVisibility() && actor->GetProperty()->GetOpacity() > 0.0 &&
+    actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
+}
+
+/// What a polygonal mapper draws, up to date; nullptr for other mappers.
+vtkDataObject* GetMappedData(vtkMapper* mapper)
+{
+  if (!vtkPolyDataMapper::SafeDownCast(mapper) && !CompositeMapper::SafeDownCast(mapper))
+  {
+    return nullptr;
+  }
+  if (mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
+  {
+    mapper->GetInputAlgorithm()->Update();
+  }
+  return mapper->GetInputDataObject(0, 0);
+}
+
+/// Calls visit(prop, part) for every surface among the renderer's props.
+template <typename Visitor>
+void VisitParts(vtkRenderer* renderer, Visitor&& visit)
+{
+  vtkCollectionSimpleIterator it;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
+  {
+    if (!prop->GetVisibility())
+    {
+      continue;
+    }
+    prop->InitPathTraversal();
+    while (vtkAssemblyPath* path = prop->GetNextPath())
+    {
+      vtkAssemblyNode* node = path->GetLastNode();
+      auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
+      if (actor && actor->GetMapper() && IsDrawnAsSurface(actor))
+      {
+        if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
+        {
+          visit(prop, Part{ actor, node->GetMatrix(), data, GetAttributes(actor->GetMapper()) });
+        }
+      }
+    }
+  }
+}
+
+/// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
+bool MayReceive(vtkProp* prop, const Part& part, bool onlyDesignated)
+{
+  vtkInformation* keys = prop->GetPropertyKeys();
+  return prop == part.Actor &&
+    (!onlyDesignated || (keys && keys->Has(vtkSoftShadowPass::DESIGNATED())));
+}
+
+/// How error messages name an actor.
+std::string Describe(vtkActor* actor)
+{
+  std::ostringstream text;
+  text << actor->GetClassName() << " (" << actor << ")";
+  return text.str();
+}
+
+template <typename Value>
+void Append(std::vector<std::uint64_t>& signature, const Value& value)
+{
+  static_assert(sizeof(Value) <= sizeof(std::uint64_t), "one word a value");
+  std::uint64_t word = 0;
+  std::memcpy(&word, &value, sizeof(Value));
+  signature.push_back(word);
+}
+
+/// The data's own time does not tell of changes in its blocks.
+void AppendTimes(std::vector<std::uint64_t>& signature, vtkDataObject* data)
+{
+  Append(signature, data);
+  Append(signature, data->GetMTime());
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkDataObjectTreeIterator> it;
+    it.TakeReference(tree->NewTreeIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      Append(signature, it->GetCurrentDataObject());
+      Append(signature, it->GetCurrentDataObject()->GetMTime());
+    }
+  }
+}
+
+/// Everything about the part that a bake depends on.
+void AppendPart(std::vector<std::uint64_t>& signature, const Part& part, bool mayReceive)
+{
+  Append(signature, part.Actor);
+  Append(signature, mayReceive);
+  AppendTimes(signature, part.Data);
+  if (part.Attributes)
+  {
+    Append(signature, part.Attributes->GetMTime());
+  }
+  for (int i = 0; part.Matrix && i < 16; ++i)
+  {
+    Append(signature, part.Matrix->GetElement(i / 4, i % 4));
+  }
+}
+
+} // namespace
+
+vtkShadowSceneCollector::vtkShadowSceneCollector()
+  : Builder(vtkSmartPointer<vtkShadowSceneBuilder>::New())
+{
+}
+
+vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
+
+const penumbra::ShadowScene& vtkShadowSceneCollector::GetScene() const
+{
+  return this->Builder->GetScene();
+}
+
+bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
+{
+  std::vector<std::uint64_t> signature;
+  VisitParts(renderer,
+    [&](vtkProp* prop, const Part& part)
+    { AppendPart(signature, part, MayReceive(prop, part, onlyDesignated)); });
+  if (signature == this->Signature)
+  {
+    return false;
+  }
+  this->Signature = std::move(signature);
+  this->Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
+  this->ReceiverProps.clear();
+  VisitParts(renderer,
+    [&](vtkProp* prop, const Part& part)
+    {
+      const std::size_t first = this->GetScene().Receivers.size();
+      const int receiver =
+        MayReceive(prop, part, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0;
+      this->Builder->AddData(part.Data, part.Matrix,
+        receiver | vtkShadowSceneBuilder::Occluder | vtkShadowSceneBuilder::Light,
+        Describe(part.Actor), part.Attributes);
+      if (first < this->GetScene().Receivers.size())
+      {
+        ReceiverProp& entry = this->ReceiverProps.emplace_back();
+        entry.Prop = prop;
+        for (std::size_t i = first; i < this->GetScene().Receivers.size(); ++i)
+        {
+          entry.Receivers.push_back(i);
+        }
+      }
+    });
+  return true;
+}
+
+void vtkShadowSceneCollector::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ReceiverProps: " << this->ReceiverProps.size() << "\n";
+}

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkShadowSceneCollector
+ * @brief finds the lights, receivers and occluders among a renderer's props
+ *
+ * All visible props count, also those outside the camera's view: their shadows may fall into it.
+ * Update() remembers what it saw, so that it can tell whether anything that a bake depends on has
+ * changed since.
+ */
+#ifndef vtkShadowSceneCollector_h
+#define vtkShadowSceneCollector_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ShadowScene.h"
+#include "vtkNew.h" // for vtkNew
+#include "vtkObject.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+
+#include <cstdint> // for the signature
+#include <vector>  // for receivers
+
+class vtkProp;
+class vtkRenderer;
+class vtkShadowSceneBuilder;
+
+class PENUMBRARENDERING_EXPORT vtkShadowSceneCollector : public vtkObject
+{
+public:
+  static vtkShadowSceneCollector* New();
+  vtkTypeMacro(vtkShadowSceneCollector, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// A prop with the receivers in its data, as indices into the scene's.
+  struct ReceiverProp
+  {
+    vtkSmartPointer<vtkProp> Prop;
+    std::vector<std::size_t> Receivers;
+  };
+
+  /**
+   * Look at the renderer's props. True if something that a bake depends on has changed since the
+   * last call (visibility, geometry, block visibility, matrices, settings): then the scene is a new
+   * one. With `onlyDesignated`, only props that carry vtkSoftShadowPass::DESIGNATED() may receive
+   * shadows.
+   */
+  bool Update(vtkRenderer* renderer, bool onlyDesignated);
+
+  const penumbra::ShadowScene& GetScene() const;
+  const std::vector<ReceiverProp>& GetReceiverProps() const { return this->ReceiverProps; }
+
+protected:
+  vtkShadowSceneCollector();
+  ~vtkShadowSceneCollector() override;
+
+private:
+  vtkShadowSceneCollector(const vtkShadowSceneCollector&) = delete;
+  void operator=(const vtkShadowSceneCollector&) = delete;
+
+  vtkSmartPointer<vtkShadowSceneBuilder> Builder;
+  std::vector<ReceiverProp> ReceiverProps;
+  std::vector<std::uint64_t> Signature;
+};
+
+#endif

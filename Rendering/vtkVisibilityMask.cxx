@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenGLLoader.h"
+
+#include "vtkVisibilityMask.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkOccluderGeometry.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkVisibilityMaskFS.h"
+#include "vtkVisibilityMaskVS.h"
+
+#include <algorithm>
+#include <array>
+
+vtkStandardNewMacro(vtkVisibilityMask);
+
+namespace
+{
+
+/// The logic op and the clip planes are not part of vtkOpenGLState.
+class ScopedMaskState
+{
+public:
+  ScopedMaskState()
+  {
+    glEnable(GL_COLOR_LOGIC_OP);
+    glLogicOp(GL_OR);
+    glEnable(GL_CLIP_DISTANCE0);
+    glEnable(GL_CLIP_DISTANCE1);
+  }
+  ~ScopedMaskState()
+  {
+    glDisable(GL_CLIP_DISTANCE1);
+    glDisable(GL_CLIP_DISTANCE0);
+    glLogicOp(GL_COPY);
+    glDisable(GL_COLOR_LOGIC_OP);
+  }
+};
+
+/// Sends up to 32 projections; the answer is how many.
+int SetProjections(vtkShaderProgram* program,
+  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first)
+{
+  std::array<float, 4 * vtkVisibilityMask::SamplesPerLayer> k{};
+  const std::size_t count =
+    std::min<std::size_t>(projections.size() - first, vtkVisibilityMask::SamplesPerLayer);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::vec3 v(projections[first + i].K);
+    std::copy_n(&v.x, 3, k.data() + 4 * i);
+  }
+  program->SetUniform4fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
+  return static_cast<int>(count);
+}
+
+} // namespace
+
+vtkVisibilityMask::vtkVisibilityMask() = default;
+vtkVisibilityMask::~vtkVisibilityMask() = default;
+
+int vtkVisibilityMask::GetMaximumSamples(vtkOpenGLRenderWindow* window)
+{
+  GLint layers = 0;
+  window->GetState()->vtkglGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  return layers * SamplesPerLayer;
+}
+
+bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int height, int samples)
+{
+  this->ReleaseGraphicsResources();
+  this->Window = window;
+  this->Width = width;
+  this->Height = height;
+  const int layers = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
+  while (glGetError() != GL_NO_ERROR)
+  {
+    // Errors of others must not be taken for a refusal.
+  }
+  glGenTextures(1, &this->Texture);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, width, height, layers, 0, GL_RED_INTEGER,
+    GL_UNSIGNED_INT, nullptr);
+  // Integer textures cannot be filtered, and there is but one level.
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+  if (glGetError() != GL_NO_ERROR)
+  {
+    vtkErrorMacro("OpenGL refused a mask of " << width << " x " << height << " texels for "
+                                              << samples << " samples; ask for fewer of either.");
+    this->ReleaseGraphicsResources();
+    return false;
+  }
+  glGenFramebuffers(1, &this->Framebuffer);
+  return true;
+}
+
+void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
+  const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
+  int firstRow)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
+    vtkVisibilityMaskVS, vtkVisibilityMaskFS, "");
+  if (!program)
+  {
+    vtkErrorMacro("The shader of the visibility masks did not compile.");
+    return;
+  }
+  // Row r of the receiver is row r - firstRow of the target, whose height is this->Height.
+  const float window[4] = { 2.0f,
+    2.0f * static_cast<float>(texels.y) / static_cast<float>(this->Height), -1.0f,
+    -2.0f * static_cast<float>(firstRow) / static_cast<float>(this->Height) - 1.0f };
+  program->SetUniform4f("windowTransform", window);
+  program->SetUniformf("contactTolerance", static_cast<float>(occluders->GetContactTolerance()));
+
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
+  state->vtkglViewport(0, 0, this->Width, this->Height);
+  for (unsigned int capability : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
+  {
+    state->vtkglDisable(capability);
+  }
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const ScopedMaskState maskState;
+  for (std::size_t first = 0; first < projections.size(); first += SamplesPerLayer)
+  {
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texture, 0,
+      static_cast<GLint>(first / SamplesPerLayer));
+    const GLuint unblocked[4] = { 0, 0, 0, 0 };
+    glClearBufferuiv(GL_COLOR, 0, unblocked);
+    occluders->Draw(program, SetProjections(program, projections, first));
+  }
+}
+
+void vtkVisibilityMask::ReleaseGraphicsResources()
+{
+  if (this->Texture != 0)
+  {
+    glDeleteTextures(1, &this->Texture);
+    this->Texture = 0;
+  }
+  if (this->Framebuffer != 0)
+  {
+    glDeleteFramebuffers(1, &this->Framebuffer);
+    this->Framebuffer = 0;
+  }
+}
+
+void vtkVisibilityMask::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Width: " << this->Width << "\n";
+  os << indent << "Height: " << this->Height << "\n";
+}

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkVisibilityMask
+ * @brief per texel of a receiver, one bit per light sample: 1 where the sample is blocked
+ *
+ * The occluders are drawn once for every 32 samples, one instance a sample, each with the
+ * registered projection of its own, into a layer of an integer texture whose logic op ORs the bits
+ * (DESIGN 5). There is nothing to accumulate: the bits do not depend on the order of the triangles
+ * or of the samples.
+ *
+ * Needs no more than OpenGL 3.2. The caller saves and restores vtkOpenGLState around it.
+ */
+#ifndef vtkVisibilityMask_h
+#define vtkVisibilityMask_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "RegisteredProjection.h"
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for vtkWeakPointer
+
+#include <vector> // for the projections
+
+class vtkOccluderGeometry;
+class vtkOpenGLRenderWindow;
+
+class PENUMBRARENDERING_EXPORT vtkVisibilityMask : public vtkObject
+{
+public:
+  static vtkVisibilityMask* New();
+  vtkTypeMacro(vtkVisibilityMask, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Samples that one layer holds.
+  static constexpr int SamplesPerLayer = 32;
+
+  /**
+   * Make room for `samples` samples at `width` x `height` texels: 4 bytes for every 32 samples of a
+   * texel. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool Allocate(vtkOpenGLRenderWindow* window, int width, int height, int samples);
+
+  /**
+   * Draw the masks of the texels in rows [firstRow, firstRow + height) of a receiver of `texels`,
+   * whose width must be the width allocated. There must be no more projections than samples were
+   * allocated.
+   */
+  void Draw(vtkOccluderGeometry* occluders,
+    const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
+    int firstRow);
+
+  /**
+   * The texture: GL_TEXTURE_2D_ARRAY of GL_R32UI; sample s is bit s % 32 of layer s / 32.
+   */
+  unsigned int GetTexture() const { return this->Texture; }
+
+  /**
+   * The most samples that the window's OpenGL can hold, 32 per layer.
+   */
+  static int GetMaximumSamples(vtkOpenGLRenderWindow* window);
+
+  /**
+   * Free the texture. The window must be current.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkVisibilityMask();
+  ~vtkVisibilityMask() override;
+
+private:
+  vtkVisibilityMask(const vtkVisibilityMask&) = delete;
+  void operator=(const vtkVisibilityMask&) = delete;
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  unsigned int Texture = 0;
+  unsigned int Framebuffer = 0;
+  int Width = 0;
+  int Height = 0;
+};
+
+#endif
