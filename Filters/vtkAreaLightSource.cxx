@@ -37,7 +37,7 @@ int vtkAreaLightSource::RequestData(
   if (!problem.empty())
   {
     vtkErrorMacro("AreaLight: " << problem << ".");
-    return 0;
+    return 1; // with an empty output; the executive's own error would only repeat it
   }
 
   vtkNew<vtkPoints> points;

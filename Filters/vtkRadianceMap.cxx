@@ -147,7 +147,7 @@ int vtkRadianceMap::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-vtkOpenGLRenderWindow* vtkRadianceMap::GetCurrentWindow()
+vtkOpenGLRenderWindow* vtkRadianceMap::GetOpenGLWindow()
 {
   if (!this->Window)
   {
@@ -162,7 +162,6 @@ vtkOpenGLRenderWindow* vtkRadianceMap::GetCurrentWindow()
     return nullptr;
   }
   window->Initialize();
-  window->MakeCurrent();
   return window;
 }
 
@@ -182,11 +181,12 @@ int vtkRadianceMap::RequestData(
   {
     return 1;
   }
-  vtkOpenGLRenderWindow* window = this->GetCurrentWindow();
+  vtkOpenGLRenderWindow* window = this->GetOpenGLWindow();
   if (!window)
   {
     return 0;
   }
+  window->PushContext(); // a view may be in the middle of its rendering
   std::size_t first = 0;
   for (const std::size_t end : ends)
   {
@@ -209,6 +209,7 @@ int vtkRadianceMap::RequestData(
     }
     texture->ReleaseGraphicsResources();
   }
+  window->PopContext();
   return 1;
 }
 

@@ -76,7 +76,7 @@ private:
   vtkRadianceMap(const vtkRadianceMap&) = delete;
   void operator=(const vtkRadianceMap&) = delete;
 
-  vtkOpenGLRenderWindow* GetCurrentWindow();
+  vtkOpenGLRenderWindow* GetOpenGLWindow();
 
   vtkSmartPointer<vtkRenderWindow> Window;
 };

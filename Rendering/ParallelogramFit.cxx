@@ -45,6 +45,8 @@ std::vector<PlanePoint> ConvexHull(std::vector<PlanePoint> points)
     [](const PlanePoint& a, const PlanePoint& b) {
       return a.P.x != b.P.x ? a.P.x < b.P.x : a.P.y != b.P.y ? a.P.y < b.P.y : a.Index < b.Index;
     });
+  const auto isSame = [](const PlanePoint& a, const PlanePoint& b) { return a.P == b.P; };
+  points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
   std::vector<PlanePoint> hull;
   const auto addChain = [&hull](auto begin, auto end)
   {

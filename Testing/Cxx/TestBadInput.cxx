@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What makes no sense gets one clear message, and the rest of the scene is drawn.
+
+#include "PassScene.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkOutputWindow.h"
+#include "vtkPolyData.h"
+#include "vtkRadianceMap.h"
+#include "vtkSphereSource.h"
+#include "vtkStringOutputWindow.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTrivialProducer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Collects the messages that VTK prints while it lives.
+class Messages
+{
+public:
+  Messages()
+    : Before(vtkOutputWindow::GetInstance())
+  {
+    vtkOutputWindow::SetInstance(this->Window);
+  }
+  ~Messages() { vtkOutputWindow::SetInstance(this->Before); }
+
+  std::string GetText() const { return this->Window->GetOutput(); }
+  int Count(const std::string& what) const
+  {
+    int count = 0;
+    const std::string text = this->GetText();
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    {
+      ++count;
+    }
+    return count;
+  }
+  /// One message, which has all of these words.
+  void ExpectOne(const std::vector<std::string>& words) const
+  {
+    EXPECT_EQ(this->Count("ERROR:") + this->Count("Warning:"), 1) << this->GetText();
+    for (const std::string& word : words)
+    {
+      EXPECT_NE(this->GetText().find(word), std::string::npos)
+        << "no '" << word << "' in: " << this->GetText();
+    }
+  }
+
+private:
+  vtkSmartPointer<vtkOutputWindow> Before;
+  vtkNew<vtkStringOutputWindow> Window;
+};
+
+/// A RadianceMap of a floor under a light, to which tests add what makes no sense.
+struct FloorMap
+{
+  FloorMap()
+  {
+    this->Plane->SetOrigin(-1, -1, 0);
+    this->Plane->SetPoint1(1, -1, 0);
+    this->Plane->SetPoint2(-1, 1, 0);
+    this->Receiver->SetInputConnection(this->Plane->GetOutputPort());
+    this->Receiver->SetTexelSize(0.25);
+    this->Light->SetOrigin(-0.5, 0.5, 2.0);
+    this->Light->SetPoint1(0.5, 0.5, 2.0);
+    this->Light->SetPoint2(-0.5, -0.5, 2.0);
+    this->Map->AddInputConnection(vtkRadianceMap::RECEIVERS, this->Receiver->GetOutputPort());
+    this->Map->AddInputConnection(vtkRadianceMap::LIGHTS, this->Light->GetOutputPort());
+  }
+
+  unsigned int CountBlocks()
+  {
+    this->Map->Update();
+    return this->Map->GetOutput()->GetNumberOfBlocks();
+  }
+
+  /// All values of all texels of the first receiver.
+  void ExpectFinite()
+  {
+    ASSERT_GE(this->CountBlocks(), 1u);
+    auto* grid = vtkStructuredGrid::SafeDownCast(this->Map->GetOutput()->GetBlock(0));
+    for (int i = 0; i < grid->GetCellData()->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = grid->GetCellData()->GetArray(i);
+      for (vtkIdType j = 0; j < array->GetNumberOfValues(); ++j)
+      {
+        const int components = array->GetNumberOfComponents();
+        ASSERT_TRUE(
+          std::isfinite(array->GetComponent(j / components, static_cast<int>(j % components))));
+      }
+    }
+  }
+
+  vtkNew<vtkPlaneSource> Plane;
+  vtkNew<vtkShadowReceiver> Receiver;
+  vtkNew<vtkAreaLightSource> Light;
+  vtkNew<vtkRadianceMap> Map;
+};
+
+vtkSmartPointer<vtkPolyData> MakeTriangle(double x)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(x, 0.0, 1.0);
+  points->InsertNextPoint(0.5, 0.0, 1.0);
+  points->InsertNextPoint(0.0, 0.5, 1.0);
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell({ 0, 1, 2 });
+  data->SetPoints(points);
+  data->SetPolys(polygons);
+  return data;
+}
+
+} // namespace
+
+TEST(BadInput, CurvedReceiver)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputConnection(sphere->GetOutputPort());
+  const Messages messages;
+  receiver->Update();
+  messages.ExpectOne({ "ShadowReceiver", "degrees", "allowed" });
+  EXPECT_EQ(receiver->GetOutput()->GetNumberOfCells(), sphere->GetOutput()->GetNumberOfCells());
+  EXPECT_EQ(receiver->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+}
+
+TEST(BadInput, EmptyReceiver)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(empty);
+  const Messages messages;
+  receiver->Update();
+  messages.ExpectOne({ "ShadowReceiver", "no polygon", "allowed" });
+}
+
+TEST(BadInput, NaNInReceiver)
+{
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(MakeTriangle(NaN));
+  const Messages messages;
+  receiver->Update();
+  messages.ExpectOne({ "ShadowReceiver", "not finite", "allowed" });
+}
+
+TEST(BadInput, NaNInOccluder)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> occluder;
+  occluder->SetOutput(MakeTriangle(NaN));
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, occluder->GetOutputPort());
+  const Messages messages;
+  floor.ExpectFinite();
+  messages.ExpectOne({ "Occluders[0]", "1 triangles", "not finite", "allowed" });
+}
+
+TEST(BadInput, LightWithoutArea)
+{
+  FloorMap floor;
+  floor.Light->SetPoint2(floor.Light->GetPoint1());
+  const Messages messages;
+  floor.Light->Update();
+  messages.ExpectOne({ "AreaLight", "area", "allowed" });
+}
+
+TEST(BadInput, LightWithNaN)
+{
+  FloorMap floor;
+  floor.Light->SetOrigin(NaN, 0.0, 0.0);
+  const Messages messages;
+  floor.Light->Update();
+  messages.ExpectOne({ "AreaLight", "Origin is (nan, 0, 0)", "allowed" });
+}
+
+TEST(BadInput, SettingsOutOfRange)
+{
+  FloorMap floor;
+  floor.Receiver->SetTexelSize(-1.0);
+  {
+    const Messages messages;
+    floor.Receiver->Update();
+    messages.ExpectOne({ "TexelSize is -1", "allowed" });
+  }
+  floor.Receiver->SetTexelSize(0.0);
+  floor.Receiver->SetSupersampling(3);
+  const Messages messages;
+  floor.Receiver->Update();
+  messages.ExpectOne({ "Supersampling is 3", "1, 2 or 4" });
+}
+
+TEST(BadInput, TexelSizeTooSmall)
+{
+  FloorMap floor;
+  floor.Receiver->SetTexelSize(1e-6);
+  floor.Receiver->SetLightSamples(1);
+  const Messages messages;
+  EXPECT_EQ(floor.CountBlocks(), 1u);
+  messages.ExpectOne({ "TexelSize", "16384", "256 MiB" });
+  int dimensions[3];
+  vtkStructuredGrid::SafeDownCast(floor.Map->GetOutput()->GetBlock(0))->GetDimensions(dimensions);
+  // 20 bytes a texel.
+  EXPECT_LE(20.0 * (dimensions[0] - 1) * (dimensions[1] - 1), 256.0 * 1024 * 1024);
+  EXPECT_GE(20.0 * (dimensions[0] - 1) * (dimensions[1] - 1), 250.0 * 1024 * 1024);
+}
+
+TEST(BadInput, NoOccludersAndNoLights)
+{
+  FloorMap floor;
+  floor.Receiver->SetAmbientRadiance(0.25, 0.25, 0.25);
+  const Messages messages;
+  floor.ExpectFinite();
+  floor.Map->RemoveAllLights();
+  floor.ExpectFinite();
+  auto* grid = vtkStructuredGrid::SafeDownCast(floor.Map->GetOutput()->GetBlock(0));
+  EXPECT_EQ(grid->GetCellData()->GetArray("Radiance")->GetComponent(0, 0), 0.25);
+  EXPECT_EQ(grid->GetCellData()->GetArray("Visibility")->GetComponent(0, 0), 1.0);
+  EXPECT_EQ(messages.GetText(), "");
+}
+
+// In a view, what is bad is left out and the rest is drawn, with one message and not one a frame.
+TEST(BadInput, InAView)
+{
+  PassScene scene;
+  vtkNew<vtkShadowReceiver> floor;
+  scene.AddReceiver({ -2, -2, 0 }, { 2, -2, 0 }, { -2, 2, 0 }, floor);
+  vtkNew<vtkAreaLightSource> light;
+  scene.AddLight(light, { -0.5, 0.5, 3 }, { 0.5, 0.5, 3 }, { -0.5, -0.5, 3 });
+  vtkNew<vtkTrivialProducer> occluder;
+  occluder->SetOutput(MakeTriangle(NaN));
+  scene.Add(occluder);
+  const Messages messages;
+  scene.Render();
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 1);
+  EXPECT_EQ(messages.Count("left out"), 1) << messages.GetText();
+}

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The pass in plain VTK: what it draws, when it bakes, what it leaves alone.
+
+#include "PassScene.h"
+
+#include "vtkAssembly.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkCubeSource.h"
+#include "vtkFloatArray.h"
+#include "vtkMultiBlockDataGroupFilter.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkProperty.h"
+#include "vtkRadianceMap.h"
+#include "vtkSphereSource.h"
+#include "vtkStripper.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTransform.h"
+#include "vtkTriangleFilter.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+/// A floor with a sphere over it, under a square light.
+class FloorScene : public PassScene
+{
+public:
+  FloorScene()
+  {
+    this->Sphere->SetRadius(0.5);
+    this->Sphere->SetCenter(0.0, 0.0, 0.8);
+    this->Sphere->SetThetaResolution(24);
+    this->Sphere->SetPhiResolution(24);
+    this->Receiver->SetTexelSize(4.0 / 64);
+    this->FloorActor = this->AddReceiver({ -2, -2, 0 }, { 2, -2, 0 }, { -2, 2, 0 }, this->Receiver);
+    this->LightActor =
+      this->AddLight(this->Light, { -0.5, 0.5, 3.0 }, { 0.5, 0.5, 3.0 }, { -0.5, -0.5, 3.0 });
+    this->SphereActor = this->Add(this->Sphere);
+    vtkCamera* camera = this->Renderer->GetActiveCamera();
+    camera->SetPosition(3.0, -6.0, 4.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.3);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    this->Renderer->ResetCameraClippingRange();
+  }
+
+  vtkNew<vtkSphereSource> Sphere;
+  vtkNew<vtkShadowReceiver> Receiver;
+  vtkNew<vtkAreaLightSource> Light;
+  vtkSmartPointer<vtkActor> FloorActor, LightActor, SphereActor;
+};
+
+std::size_t CountDifferences(const PassScene::Pixels& a, const PassScene::Pixels& b)
+{
+  std::size_t count = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
+  for (std::size_t i = 0; count < a.size() && i < a.size(); ++i)
+  {
+    count += a[i] != b[i] ? 1 : 0;
+  }
+  return count;
+}
+
+std::vector<float> GetTexels(vtkSoftShadowPass* pass, int receiver)
+{
+  const vtkSmartPointer<vtkFloatArray> array = pass->GetTexels(receiver);
+  return array
+    ? std::vector<float>(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues())
+    : std::vector<float>();
+}
+
+} // namespace
+
+TEST(SoftShadowPass, DarkensTheFloorOnly)
+{
+  FloorScene scene;
+  const PassScene::Pixels shadowed = scene.Render();
+  scene.SetShadows(false);
+  const PassScene::Pixels plain = scene.Render();
+  EXPECT_GT(CountDifferences(shadowed, plain), shadowed.size() / 100);
+  scene.FloorActor->VisibilityOff();
+  const PassScene::Pixels withoutFloor = scene.Render();
+  for (std::size_t i = 0; i < plain.size(); ++i)
+  {
+    if (plain[i] == withoutFloor[i]) // no floor here
+    {
+      ASSERT_EQ(shadowed[i], plain[i]);
+    }
+    ASSERT_LE(shadowed[i][0], plain[i][0]); // a white light brightens nothing
+  }
+}
+
+TEST(SoftShadowPass, WithoutLightsDrawsPlain)
+{
+  FloorScene scene;
+  scene.LightActor->VisibilityOff();
+  const PassScene::Pixels withPass = scene.Render();
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 0);
+  scene.SetShadows(false);
+  EXPECT_EQ(CountDifferences(withPass, scene.Render()), 0u);
+}
+
+TEST(SoftShadowPass, WithoutOccludersDrawsPlain)
+{
+  FloorScene scene;
+  scene.SphereActor->VisibilityOff();
+  const PassScene::Pixels withPass = scene.Render();
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 1);
+  scene.SetShadows(false);
+  EXPECT_EQ(CountDifferences(withPass, scene.Render()), 0u);
+}
+
+TEST(SoftShadowPass, CameraDoesNotBake)
+{
+  FloorScene scene;
+  const PassScene::Pixels first = scene.Render();
+  for (int i = 0; i < 12; ++i)
+  {
+    scene.Renderer->GetActiveCamera()->Azimuth(30.0);
+    scene.Render();
+  }
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 1);
+  scene.Window->SetSize(150, 100);
+  scene.Render();
+  scene.Window->SetSize(300, 200);
+  EXPECT_LE(CountDifferences(scene.Render(), first), first.size() / 1000); // the camera's rounding
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 1);
+}
+
+TEST(SoftShadowPass, ChangesBake)
+{
+  FloorScene scene;
+  scene.Render();
+  int bakes = 1;
+  const auto expectBake = [&](const char* change)
+  {
+    scene.Render();
+    EXPECT_EQ(scene.Pass->GetBakeCount(), ++bakes) << change;
+    scene.Render();
+    EXPECT_EQ(scene.Pass->GetBakeCount(), bakes) << "the frame after: " << change;
+  };
+  scene.SphereActor->SetPosition(0.2, 0.0, 0.0);
+  expectBake("matrix");
+  scene.Sphere->SetRadius(0.4);
+  expectBake("input of a mapper");
+  scene.SphereActor->VisibilityOff();
+  expectBake("visibility");
+  scene.Light->SetRadiance(1.0, 0.5, 0.5);
+  expectBake("light");
+  scene.Receiver->SetLightSamples(16);
+  expectBake("settings");
+  scene.FloorActor->RotateX(5.0);
+  expectBake("receiver's matrix");
+}
+
+TEST(SoftShadowPass, PropsOutOfSightCastShadows)
+{
+  FloorScene scene;
+  scene.Render();
+  const std::vector<float> texels = GetTexels(scene.Pass, 0);
+  // From below the sphere, looking down: it is behind the camera.
+  scene.Renderer->GetActiveCamera()->SetPosition(0.0, 0.1, 0.25);
+  scene.Renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+  scene.Renderer->ResetCameraClippingRange(-2, 2, -2, 2, 0, 0);
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), texels);
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 1);
+}
+
+// RadianceMap bakes the same: bit for bit.
+TEST(SoftShadowPass, TexelsAreThoseOfRadianceMap)
+{
+  FloorScene scene;
+  vtkNew<vtkShadowReceiver> wall;
+  wall->SetSupersampling(2);
+  wall->SetTexelSize(0.1);
+  scene.AddReceiver({ -2, 2, 0 }, { 2, 2, 0 }, { -2, 2, 2 }, wall);
+  scene.Receiver->SetReflectance(0.5, 0.6, 0.7);
+  scene.Receiver->SetAmbientRadiance(0.1, 0.2, 0.3);
+  scene.Render();
+
+  vtkNew<vtkRadianceMap> map;
+  map->AddInputConnection(vtkRadianceMap::RECEIVERS, scene.Receiver->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::RECEIVERS, wall->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::OCCLUDERS, scene.Sphere->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::LIGHTS, scene.Light->GetOutputPort());
+  map->Update();
+  ASSERT_EQ(map->GetOutput()->GetNumberOfBlocks(), 2u);
+  for (unsigned int block = 0; block < 2; ++block)
+  {
+    scene.Window->MakeCurrent();
+    const std::vector<float> texels = GetTexels(scene.Pass, static_cast<int>(block));
+    auto* grid = vtkStructuredGrid::SafeDownCast(map->GetOutput()->GetBlock(block));
+    auto* radiance = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("Radiance"));
+    ASSERT_EQ(texels.size(), 4u * static_cast<std::size_t>(radiance->GetNumberOfTuples()));
+    const float reflectance[3] = { 0.5f, 0.6f, 0.7f };
+    const float ambient[3] = { 0.1f, 0.2f, 0.3f };
+    for (vtkIdType i = 0; i < radiance->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        const float irradiance = texels[static_cast<std::size_t>(4 * i + c)];
+        const float expected = block == 0 ? reflectance[c] * (ambient[c] + irradiance) : irradiance;
+        ASSERT_EQ(radiance->GetTypedComponent(i, c), expected);
+      }
+    }
+  }
+}
+
+// Polygons, triangles, strips, blocks of composite data and parts of assemblies are the same
+// occluder.
+TEST(SoftShadowPass, AllKindsOfSurfacesBlockAlike)
+{
+  FloorScene scene;
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(-0.4, 0.5, -0.3, 0.4, 0.4, 0.9);
+  scene.SphereActor->GetMapper()->SetInputConnection(cube->GetOutputPort());
+  scene.Render();
+  const std::vector<float> quads = GetTexels(scene.Pass, 0);
+
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(cube->GetOutputPort());
+  scene.SphereActor->GetMapper()->SetInputConnection(triangles->GetOutputPort());
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), quads) << "triangles";
+
+  vtkNew<vtkStripper> strips;
+  strips->SetInputConnection(triangles->GetOutputPort());
+  scene.SphereActor->GetMapper()->SetInputConnection(strips->GetOutputPort());
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), quads) << "strips";
+
+  scene.Renderer->RemoveActor(scene.SphereActor);
+  vtkNew<vtkAssembly> inner, outer;
+  cube->SetBounds(-0.4 - 1.0, 0.5 - 1.0, -0.3, 0.4, 0.4, 0.9);
+  scene.SphereActor->SetPosition(0.5, 0.0, 0.0);
+  inner->AddPart(scene.SphereActor);
+  outer->AddPart(inner);
+  outer->SetPosition(0.5, 0.0, 0.0);
+  scene.Renderer->AddActor(outer);
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), quads) << "assembly";
+}
+
+TEST(SoftShadowPass, ABoxIsSixReceivers)
+{
+  FloorScene scene;
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputConnection(cube->GetOutputPort());
+  receiver->SetTexelSize(0.1);
+  scene.Add(receiver);
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 7);
+}
+
+TEST(SoftShadowPass, OnlyDesignatedReceive)
+{
+  FloorScene scene;
+  scene.Pass->OnlyDesignatedOn();
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 0);
+  vtkSoftShadowPass::Designate(scene.FloorActor, vtkSoftShadowPass::RADIANCE);
+  const PassScene::Pixels radiance = scene.Render();
+  EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 1);
+  vtkSoftShadowPass::Designate(scene.FloorActor, vtkSoftShadowPass::SHADOW);
+  EXPECT_GT(CountDifferences(scene.Render(), radiance), radiance.size() / 10);
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 1); // how it is shown is not baked
+}
+
+// In RADIANCE mode a white actor shows the radiance itself: 8 bits of it.
+TEST(SoftShadowPass, ShowsRadiance)
+{
+  FloorScene scene;
+  scene.Pass->SetShading(vtkSoftShadowPass::RADIANCE);
+  scene.SphereActor->SetPosition(0.0, 0.0, 0.5);
+  scene.Light->SetRadiance(6.0, 6.0, 3.0);
+  scene.Receiver->SetReflectance(0.5, 1.0, 1.0);
+  scene.Renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 40.0);
+  scene.Renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+  scene.Renderer->GetActiveCamera()->SetViewUp(0.0, 1.0, 0.0);
+  scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
+  scene.Renderer->GetActiveCamera()->SetParallelScale(2.0); // the floor fills the height
+  scene.Renderer->ResetCameraClippingRange();
+  scene.Window->SetSize(64, 64); // a texel is a pixel
+  const PassScene::Pixels pixels = scene.Render();
+  const std::vector<float> texels = GetTexels(scene.Pass, 0);
+  int compared = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+  {
+    const std::size_t x = i % 64, y = i / 64;
+    if (x > 4 && y > 4 && x < 20 && y < 20) // neither the sphere nor the light is there
+    {
+      const float expected[3] = { 0.5f * texels[4 * i], texels[4 * i + 1], texels[4 * i + 2] };
+      for (int c = 0; c < 3; ++c)
+      {
+        ASSERT_NEAR(pixels[i][static_cast<std::size_t>(c)], 255.0f * expected[c], 1.0f);
+      }
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 225);
+}
+
+TEST(SoftShadowPass, SurvivesReleaseOfItsResources)
+{
+  FloorScene scene;
+  const PassScene::Pixels first = scene.Render();
+  scene.Pass->ReleaseGraphicsResources(scene.Window);
+  EXPECT_EQ(CountDifferences(scene.Render(), first), 0u);
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 2);
+}
+
+TEST(SoftShadowPass, AddsNoMemoryOverFrames)
+{
+  FloorScene scene;
+  scene.Render();
+  const vtkTypeInt64 bytes = scene.Pass->GetTextureBytes();
+  for (int i = 0; i < 20; ++i)
+  {
+    scene.SphereActor->SetPosition(0.01 * i, 0.0, 0.0);
+    scene.Render();
+  }
+  EXPECT_EQ(scene.Pass->GetTextureBytes(), bytes);
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 20); // the first of them had not moved
+}
