@@ -83,9 +83,8 @@ void AddCells(const penumbra::Receiver& receiver, const vtkRadianceTexture::Texe
     const float share =
       arriving.a > 0.0f ? glm::dot(glm::vec3(arriving), third) / arriving.a : 1.0f;
     visibility->SetValue(i, std::min(share, 1.0f)); // sums over lights round
-    // The light's colour is in the variance of the mean of its components; the receiver's is not.
     const float variance = texels.Variance[static_cast<std::size_t>(i)];
-    error->SetValue(i, glm::dot(reflectance, third) * std::sqrt(variance));
+    error->SetValue(i, std::sqrt(variance));
   }
   grid->GetCellData()->AddArray(radiance);
   grid->GetCellData()->AddArray(visibility);

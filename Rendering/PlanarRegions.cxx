@@ -20,7 +20,7 @@ namespace
 constexpr double PlanarityTolerance = 1e-5;
 /// Neighbours that bend by less are meant to be coplanar, if their points say so too.
 const double CoplanarAngle = glm::radians(1.0);
-const double FeatureAngle = glm::radians(30.0);
+const double FeatureAngle = glm::radians(29.99); // 30 degrees, if rounded
 /// A polygon that is thinner than this share of its length has no normal worth comparing.
 constexpr double SliverTolerance = 1e-4;
 

@@ -13,7 +13,7 @@ namespace
 
 /// Texels along the longest edge where TexelSize is 0.
 constexpr double AutomaticTexels = 512.0;
-/// An edge may be this share of a texel longer than its texels: it is rounding.
+/// An edge may be this share longer than its texels: it is rounding.
 constexpr double CountTolerance = 1e-6;
 /// Far past any limit, and finite whatever the texel size.
 constexpr double MostTexels = 1e9;
@@ -25,7 +25,8 @@ double CountTexels(const Receiver& receiver, const glm::dvec3& edge, double grow
     std::max(glm::length(receiver.Base.EdgeX), glm::length(receiver.Base.EdgeY));
   const double wanted = receiver.Settings.TexelSize;
   const double size = growth * (wanted > 0.0 ? wanted : longest / AutomaticTexels);
-  return std::clamp(std::ceil(glm::length(edge) / size - CountTolerance), 1.0, MostTexels);
+  const double length = glm::length(edge) * (1.0 - CountTolerance);
+  return std::clamp(std::ceil(length / size), 1.0, MostTexels);
 }
 
 /// What a light sends to the receiver's centre, summed over its components; its area in front where

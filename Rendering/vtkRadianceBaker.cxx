@@ -164,7 +164,7 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light)
   const penumbra::PolygonLight& seen = job.Lights[light];
   if (job.Result.Effects[light] == penumbra::Effect::Unoccluded)
   {
-    if (!this->Resolver->Begin(job.Window, job.Frame, seen, {}))
+    if (!this->Resolver->Begin(job.Window, job.Frame, job.Receiver.Settings.Reflectance, seen, {}))
     {
       return false;
     }
@@ -190,7 +190,7 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light)
   const int rows = static_cast<int>(
     std::clamp<std::size_t>(MaximumMaskBytes / bytesPerRow, 1, static_cast<std::size_t>(size.y)));
   if (!this->Masks->Allocate(job.Window, size.x, rows, count) ||
-    !this->Resolver->Begin(job.Window, job.Frame, seen, samples))
+    !this->Resolver->Begin(job.Window, job.Frame, job.Receiver.Settings.Reflectance, seen, samples))
   {
     return false;
   }

@@ -49,7 +49,8 @@ vtkRadianceResolver::vtkRadianceResolver() = default;
 vtkRadianceResolver::~vtkRadianceResolver() = default;
 
 bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const penumbra::PolygonLight& seen, const std::vector<glm::dvec3>& samples)
+  const glm::dvec3& reflectance, const penumbra::PolygonLight& seen,
+  const std::vector<glm::dvec3>& samples)
 {
   this->Window = window;
   if (seen.GetVertices().size() > MaximumLightVertices)
@@ -65,6 +66,8 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
     return false;
   }
   this->SetLightUniforms(frame, seen);
+  const glm::vec3 share(reflectance);
+  this->Program->SetUniform3f("reflectance", &share.x);
   return samples.empty() || this->UploadSamples(frame, samples);
 }
 

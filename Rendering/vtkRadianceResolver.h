@@ -35,13 +35,14 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Take up a light: `seen` is its part in front of the receiver, `samples` (world coordinates) are
-   * the points of it whose masks will come; none if nothing can block it. The first half of the
-   * samples (the greater, if their number is odd) and the second must each be spread over the
-   * light. False, after vtkErrorMacro, if OpenGL refuses.
+   * Take up a light on a receiver of the given reflectance: `seen` is its part in front of the
+   * receiver, `samples` (world coordinates) are the points of it whose masks will come; none if
+   * nothing can block it. The first half of the samples (the greater, if their number is odd) and
+   * the second must each be spread over the light. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-    const penumbra::PolygonLight& seen, const std::vector<glm::dvec3>& samples);
+    const glm::dvec3& reflectance, const penumbra::PolygonLight& seen,
+    const std::vector<glm::dvec3>& samples);
 
   /**
    * Add the light to the rows [firstRow, lastRow) of a region of `target`. Row r is row r -

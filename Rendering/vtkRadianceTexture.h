@@ -6,8 +6,7 @@
  *
  * An atlas: each receiver has a region of texels. Per texel it holds, in single precision, the
  * irradiance over pi from all lights (three components), the mean of its components if nothing were
- * blocked, and the variance of the mean of the three: 20 bytes. Reflectance and ambient radiance
- * are not part of it, so that changing them costs nothing.
+ * blocked, and the variance of the mean of the three once they are reflected: 20 bytes.
  *
  * Around each region of an atlas of several, GutterTexels repeat its border, so that mip levels up
  * to log2(GutterTexels) never mix two receivers; a texture with one receiver has no gutter and all

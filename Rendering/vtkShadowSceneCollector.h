@@ -16,6 +16,7 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
+#include "vtkWeakPointer.h"  // for vtkWeakPointer
 
 #include <cstdint> // for the signature
 #include <vector>  // for receivers
@@ -34,7 +35,8 @@ public:
   /// A prop with the receivers in its data, as indices into the scene's.
   struct ReceiverProp
   {
-    vtkSmartPointer<vtkProp> Prop;
+    /// Weak, since mappers hold on to the passes that drew them: no prop may be held by its pass.
+    vtkWeakPointer<vtkProp> Prop;
     std::vector<std::size_t> Receivers;
   };
 

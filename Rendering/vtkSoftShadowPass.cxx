@@ -4,6 +4,7 @@
 
 #include "vtkSoftShadowPass.h"
 
+#include "ScreenMap.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -28,6 +29,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -41,7 +44,7 @@ namespace
 /// A prop that shows receivers, with what its shader needs.
 struct ShownProp
 {
-  vtkSmartPointer<vtkProp> Prop;
+  vtkWeakPointer<vtkProp> Prop;
   std::vector<std::size_t> Receivers; ///< indices into the scene's
   vtkSmartPointer<vtkRadianceTexture> Texture;
   int Shading = vtkSoftShadowPass::SHADOW;
@@ -60,44 +63,35 @@ std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
     std::max(1, (components / 4 - VectorsOfVTK) / VectorsPerReceiver));
 }
 
-/// The matrix from world to clip coordinates that the mappers use, but in double, and applied after
-/// the subtraction of the eye's position that is part of it.
-glm::dvec4 ToClip(vtkMatrix4x4* worldToView, vtkMatrix4x4* viewToClip, const glm::dvec3& point)
+/// The uniforms of vtkSoftShadowFS.glsl, an element (of penumbraRows three) for each receiver.
+struct ReceiverUniforms
 {
-  // vtkOpenGLCamera gives matrices transposed, as OpenGL reads them.
-  const glm::dmat4 view = glm::make_mat4(worldToView->GetData());
-  const glm::dmat4 projection = glm::make_mat4(viewToClip->GetData());
-  return projection * (view * glm::dvec4(point, 1.0));
-}
+  std::vector<glm::vec3> Rows, Depths, Ambient, Reflectance;
+  std::vector<glm::vec4> Places;
 
-/// From window coordinates (x, y, 1), in pixels, to (u q, v q, q) on a receiver, and to the depth
-/// of its plane: two projective maps of the screen.
-struct ScreenMap
-{
-  glm::mat3 Rows;
-  glm::vec3 Depth;
-};
-
-ScreenMap MakeScreenMap(const penumbra::Parallelogram& base, vtkMatrix4x4* worldToView,
-  vtkMatrix4x4* viewToClip, const int viewport[4])
-{
-  // (u, v, 1) to clip coordinates is linear; that of x, y and w is to be inverted.
-  const glm::dvec4 corner = ToClip(worldToView, viewToClip, base.Corner);
-  const glm::dvec4 x = ToClip(worldToView, viewToClip, base.Corner + base.EdgeX) - corner;
-  const glm::dvec4 y = ToClip(worldToView, viewToClip, base.Corner + base.EdgeY) - corner;
-  const glm::dmat3 toScreen(
-    glm::dvec3(x.x, x.y, x.w), glm::dvec3(y.x, y.y, y.w), glm::dvec3(corner.x, corner.y, corner.w));
-  glm::dmat3 pixelToClip(1.0); // normalised device coordinates of a pixel
-  for (int i = 0; i < 2; ++i)
+  void Add(const penumbra::ScreenMap& map, const penumbra::ReceiverSettings& settings,
+    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize)
   {
-    pixelToClip[i][i] = 2.0 / viewport[2 + i];
-    pixelToClip[2][i] = -1.0 - 2.0 * viewport[i] / viewport[2 + i];
+    this->Rows.insert(this->Rows.end(), std::begin(map.Rows), std::end(map.Rows));
+    this->Depths.emplace_back(map.Depth);
+    this->Ambient.emplace_back(settings.AmbientRadiance);
+    this->Reflectance.emplace_back(settings.Reflectance);
+    this->Places.emplace_back(
+      glm::vec2(region.Origin) / textureSize, glm::vec2(region.Size) / textureSize);
   }
-  const glm::dmat3 fromScreen = glm::inverse(toScreen) * pixelToClip;
-  // clip.z / clip.w is linear in (u q, v q, q); OpenGL maps it from [-1, 1] to [0, 1].
-  const glm::dvec3 depth = 0.5 * (glm::dvec3(x.z, y.z, corner.z) * fromScreen);
-  return { glm::mat3(glm::transpose(fromScreen)), glm::vec3(depth + glm::dvec3(0.0, 0.0, 0.5)) };
-}
+
+  void Set(vtkShaderProgram* program) const
+  {
+    const auto set = [&](const char* name, const std::vector<glm::vec3>& values)
+    { program->SetUniform3fv(name, static_cast<int>(values.size()), &values.front().x); };
+    set("penumbraRows", this->Rows);
+    set("penumbraDepths", this->Depths);
+    set("penumbraAmbient", this->Ambient);
+    set("penumbraReflectance", this->Reflectance);
+    program->SetUniform4fv(
+      "penumbraPlaces", static_cast<int>(this->Places.size()), &this->Places.front().x);
+  }
+};
 
 } // namespace
 
@@ -296,34 +290,24 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   glBindTexture(GL_TEXTURE_2D, shown.Texture->GetIrradiance()->GetHandle());
   program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
 
+  // The matrices that the mappers use; vtkOpenGLCamera gives them transposed, as OpenGL reads them.
   vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
   vtkMatrix3x3* normals;
   vtkOpenGLCamera::SafeDownCast(this->Impl->Renderer->GetActiveCamera())
     ->GetKeyMatrices(this->Impl->Renderer, worldToView, normals, viewToClip, worldToClip);
-  int viewport[4];
-  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  glm::ivec4 viewport;
+  state->vtkglGetIntegerv(GL_VIEWPORT, &viewport.x);
 
   const penumbra::ShadowScene& scene = this->Impl->Collector->GetScene();
-  const int count = static_cast<int>(shown.Receivers.size());
-  std::vector<glm::vec3> rows, depths, ambient, reflectance;
-  std::vector<glm::vec4> places;
-  const glm::vec2 size(shown.Texture->GetSize());
+  ReceiverUniforms uniforms;
   for (std::size_t i = 0; i < shown.Receivers.size(); ++i)
   {
     const penumbra::Receiver& receiver = scene.Receivers[shown.Receivers[i]];
-    const ScreenMap map = MakeScreenMap(receiver.Base, worldToView, viewToClip, viewport);
-    rows.insert(rows.end(), { map.Rows[0], map.Rows[1], map.Rows[2] });
-    depths.push_back(map.Depth);
-    ambient.emplace_back(receiver.Settings.AmbientRadiance);
-    reflectance.emplace_back(receiver.Settings.Reflectance);
-    const vtkRadianceTexture::Region& region = shown.Texture->GetRegions()[i];
-    places.emplace_back(glm::vec2(region.Origin) / size, glm::vec2(region.Size) / size);
+    uniforms.Add(penumbra::MakeScreenMap(receiver.Base, glm::make_mat4(worldToView->GetData()),
+                   glm::make_mat4(viewToClip->GetData()), viewport),
+      receiver.Settings, shown.Texture->GetRegions()[i], glm::vec2(shown.Texture->GetSize()));
   }
-  program->SetUniform3fv("penumbraRows", 3 * count, &rows.front().x);
-  program->SetUniform3fv("penumbraDepths", count, &depths.front().x);
-  program->SetUniform4fv("penumbraPlaces", count, &places.front().x);
-  program->SetUniform3fv("penumbraAmbient", count, &ambient.front().x);
-  program->SetUniform3fv("penumbraReflectance", count, &reflectance.front().x);
+  uniforms.Set(program);
   return true;
 }
 

@@ -7,7 +7,7 @@
 // Adds what one light sends to each texel: the closed form times the share of the samples that is seen,
 // weighted by what each would contribute (Heitz, Hill and McGuire 2018), and the variance of that share.
 // Output 0: irradiance / pi in rgb, and in a the mean of its components if nothing were blocked.
-// Output 1: in r, the variance of the mean of rgb.
+// Output 1: in r, the variance of the mean of rgb once they are reflected.
 
 //Penumbra::LightShape::Dec
 
@@ -20,6 +20,7 @@ uniform ivec2 regionSize;
 uniform int firstRow;          // the receiver's row that is row 0 of the masks
 uniform vec4 metricEdges;      // ex and ey in the metric frame's plane
 uniform vec3 lightRadiance;
+uniform vec3 reflectance;      // for the variance alone
 
 uint blockedBits(ivec2 texel, int word)
 {
@@ -99,5 +100,6 @@ void main()
   vec2 seen = form > 0.0 ? seenShare(texel, x) : vec2(0.0);
   float mean = dot(lightRadiance, vec3(1.0 / 3.0)) * form;
   gl_FragData[0] = vec4(lightRadiance * (form * seen.x), mean);
-  gl_FragData[1] = vec4(mean * mean * seen.y, 0.0, 0.0, 0.0);
+  float reflected = dot(lightRadiance * reflectance, vec3(1.0 / 3.0)) * form;
+  gl_FragData[1] = vec4(reflected * reflected * seen.y, 0.0, 0.0, 0.0);
 }

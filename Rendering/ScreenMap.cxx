@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScreenMap.h"
+
+namespace penumbra
+{
+
+ScreenMap MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
+  const glm::dmat4& viewToClip, const glm::ivec4& viewport)
+{
+  // (u, v, 1) to clip coordinates is linear; its part for x, y and w is to be inverted.
+  const glm::dvec4 corner = viewToClip * (worldToView * glm::dvec4(base.Corner, 1.0));
+  const glm::dvec4 x = viewToClip * (worldToView * glm::dvec4(base.EdgeX, 0.0));
+  const glm::dvec4 y = viewToClip * (worldToView * glm::dvec4(base.EdgeY, 0.0));
+  const glm::dmat3 toScreen(
+    glm::dvec3(x.x, x.y, x.w), glm::dvec3(y.x, y.y, y.w), glm::dvec3(corner.x, corner.y, corner.w));
+
+  glm::dmat3 pixelToDevice(1.0);
+  for (int i = 0; i < 2; ++i)
+  {
+    pixelToDevice[i][i] = 2.0 / viewport[2 + i];
+    pixelToDevice[2][i] = -1.0 - 2.0 * viewport[i] / viewport[2 + i];
+  }
+  const glm::dmat3 fromPixel = glm::inverse(toScreen) * pixelToDevice;
+  const glm::dmat3 rows = glm::transpose(fromPixel);
+  // clip.z / clip.w is linear in (u q, v q, q); OpenGL maps it from [-1, 1] to [0, 1].
+  const glm::dvec3 depth = 0.5 * (glm::dvec3(x.z, y.z, corner.z) * fromPixel);
+  return { { rows[0], rows[1], rows[2] }, depth + glm::dvec3(0.0, 0.0, 0.5) };
+}
+
+} // namespace penumbra
