@@ -154,12 +154,13 @@ std::optional<Parallelogram> FitParallelogram(
   glm::dvec3 axisX, axisY;
   PlaneBasis(normal, axisX, axisY);
   std::vector<PlanePoint> plane;
-  double extent = 0.0;
+  double extent = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::dvec3 d = points[i] - points[0];
     plane.push_back({ { glm::dot(d, axisX), glm::dot(d, axisY) }, i });
     extent = std::max(extent, glm::length(d));
+    largest = std::max(largest, glm::length(points[i]));
   }
   if (!(extent > 0.0) || !std::isfinite(extent))
   {
@@ -171,7 +172,9 @@ std::optional<Parallelogram> FitParallelogram(
   // extents.
   const double tolerance = FlatnessTolerance * std::min(extent, HullArea(hull) / extent);
   Simplify(hull, tolerance);
-  if (hull.size() < 3 || !(HullArea(hull) > 0.0))
+  // Points on a line span the area of their own rounding.
+  if (hull.size() < 3 ||
+    !(HullArea(hull) > 4.0 * std::numeric_limits<double>::epsilon() * largest * extent))
   {
     return std::nullopt;
   }

@@ -49,12 +49,13 @@ double LongestEdge(const PolygonMesh& mesh, const std::vector<int>& polygon)
   return longest;
 }
 
-/// Disjoint sets of polygons; the smallest member stands for its set.
+/// Disjoint sets of polygons, each with the polygon of the largest area to stand for it.
 class DisjointSets
 {
 public:
-  explicit DisjointSets(std::size_t count)
-    : Parent(count)
+  explicit DisjointSets(const std::vector<glm::dvec3>& areas)
+    : Areas(areas)
+    , Parent(areas.size())
   {
     std::iota(this->Parent.begin(), this->Parent.end(), 0);
   }
@@ -71,11 +72,14 @@ public:
   {
     a = this->Find(a);
     b = this->Find(b);
-    this->At(std::max(a, b)) = std::min(a, b);
+    const bool aIsLarger = this->GetArea(a) >= this->GetArea(b);
+    this->At(aIsLarger ? b : a) = aIsLarger ? a : b;
   }
 
 private:
   int& At(int i) { return this->Parent[static_cast<std::size_t>(i)]; }
+  double GetArea(int i) const { return glm::length(this->Areas[static_cast<std::size_t>(i)]); }
+  const std::vector<glm::dvec3>& Areas;
   std::vector<int> Parent;
 };
 
@@ -105,21 +109,33 @@ std::vector<Edge> FindEdges(const PolygonMesh& mesh, const std::vector<glm::dvec
   return edges;
 }
 
-/// The angle between two polygons' planes, whichever way they are wound; 0 where one is a sliver.
+/// How far a polygon's normal may be off by the rounding of its points, in radians.
+double NormalError(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, int p)
+{
+  const auto i = static_cast<std::size_t>(p);
+  return 2.0 * mesh.Rounding * LongestEdge(mesh, mesh.Polygons[i]) / glm::length(areas[i]);
+}
+
+bool IsSliver(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, int p)
+{
+  const auto i = static_cast<std::size_t>(p);
+  const double length = LongestEdge(mesh, mesh.Polygons[i]);
+  return glm::length(areas[i]) < (SliverTolerance * length + mesh.Rounding) * length;
+}
+
+/// The angle between two polygons' planes, whichever way they are wound, that rounding does not
+/// explain; 0 where one is a sliver.
 double BendAngle(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, int a, int b)
 {
-  const auto i = static_cast<std::size_t>(a);
-  const auto j = static_cast<std::size_t>(b);
-  for (const std::size_t p : { i, j })
+  if (IsSliver(mesh, areas, a) || IsSliver(mesh, areas, b))
   {
-    const double length = LongestEdge(mesh, mesh.Polygons[p]);
-    if (glm::length(areas[p]) < (SliverTolerance * length + mesh.Rounding) * length)
-    {
-      return 0.0;
-    }
+    return 0.0;
   }
-  return std::atan2(
-    glm::length(glm::cross(areas[i], areas[j])), std::abs(glm::dot(areas[i], areas[j])));
+  const glm::dvec3& areaA = areas[static_cast<std::size_t>(a)];
+  const glm::dvec3& areaB = areas[static_cast<std::size_t>(b)];
+  const double angle =
+    std::atan2(glm::length(glm::cross(areaA, areaB)), std::abs(glm::dot(areaA, areaB)));
+  return std::max(0.0, angle - NormalError(mesh, areas, a) - NormalError(mesh, areas, b));
 }
 
 std::string DescribeBend(int a, int b, double angle)
@@ -130,27 +146,52 @@ std::string DescribeBend(int a, int b, double angle)
   return text.str();
 }
 
+/// Calls visit() for all pairs of polygons that share an edge.
+template <typename Visitor>
+void VisitNeighbours(const std::vector<Edge>& edges, Visitor&& visit)
+{
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < edges.size() && edges[j].Points == edges[i].Points; ++j)
+    {
+      visit(edges[i].Polygon, edges[j].Polygon);
+    }
+  }
+}
+
 /// Puts coplanar polygons with a common edge into one set; the answer is empty or what forbids it.
 std::string UniteCoplanarNeighbours(
   const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, DisjointSets& sets)
 {
   const std::vector<Edge> edges = FindEdges(mesh, areas);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-  {
-    for (std::size_t j = i + 1; j < edges.size() && edges[j].Points == edges[i].Points; ++j)
+  std::vector<std::pair<int, int>> slivers;
+  std::string problem;
+  VisitNeighbours(edges,
+    [&](int a, int b)
     {
-      const double angle = BendAngle(mesh, areas, edges[i].Polygon, edges[j].Polygon);
-      if (angle > CoplanarAngle && angle < FeatureAngle)
+      const double angle = BendAngle(mesh, areas, a, b);
+      if (IsSliver(mesh, areas, a) || IsSliver(mesh, areas, b))
       {
-        return DescribeBend(edges[i].Polygon, edges[j].Polygon, angle);
+        slivers.emplace_back(a, b);
       }
-      if (angle <= CoplanarAngle)
+      else if (angle <= CoplanarAngle)
       {
-        sets.Unite(edges[i].Polygon, edges[j].Polygon);
+        sets.Unite(a, b);
       }
+      else if (angle < FeatureAngle)
+      {
+        problem = DescribeBend(a, b, angle);
+      }
+    });
+  // A sliver goes with whatever it touches, but does not join a floor to a wall.
+  for (const auto& [a, b] : slivers)
+  {
+    if (BendAngle(mesh, areas, sets.Find(a), sets.Find(b)) <= CoplanarAngle)
+    {
+      sets.Unite(a, b);
     }
   }
-  return "";
+  return problem;
 }
 
 /// The unit normal of the side to which more of the region's area points.
@@ -237,7 +278,7 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
     areas.push_back(AreaVector(mesh, polygon));
   }
 
-  DisjointSets sets(mesh.Polygons.size());
+  DisjointSets sets(areas);
   result.Problem = UniteCoplanarNeighbours(mesh, areas, sets);
   if (!result.Problem.empty())
   {

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace penumbra
@@ -59,6 +60,12 @@ PolygonLight::PolygonLight(std::vector<glm::dvec3> vertices, SampleMap map)
   , Map(map)
 {
   glm::dvec3 areaVector(0.0);
+  double extent = 0.0, largest = 0.0;
+  for (const glm::dvec3& v : this->Vertices)
+  {
+    extent = std::max(extent, glm::length(v - this->Vertices[0]));
+    largest = std::max(largest, glm::length(v));
+  }
   for (std::size_t i = 1; i + 1 < this->Vertices.size(); ++i)
   {
     areaVector += 0.5 *
@@ -66,7 +73,8 @@ PolygonLight::PolygonLight(std::vector<glm::dvec3> vertices, SampleMap map)
     this->FanShares.push_back(glm::length(areaVector));
   }
   const double area = glm::length(areaVector);
-  if (!(area > 0.0) || !std::isfinite(area))
+  // Points on a line span the area of their own rounding.
+  if (!(area > 4.0 * DBL_EPSILON * largest * extent) || !std::isfinite(area))
   {
     this->Vertices.clear();
     this->FanShares.clear();
@@ -99,6 +107,10 @@ PolygonLight PolygonLight::Transformed(const glm::dmat4& matrix) const
   for (const glm::dvec3& vertex : this->Vertices)
   {
     vertices.emplace_back(matrix * glm::dvec4(vertex, 1.0));
+  }
+  if (glm::determinant(glm::dmat3(matrix)) < 0.0 && !vertices.empty())
+  {
+    std::reverse(vertices.begin() + 1, vertices.end()); // a mirror turns the winding round
   }
   PolygonLight result(std::move(vertices), this->Map);
   result.Radiance = this->Radiance;

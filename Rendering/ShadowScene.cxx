@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace penumbra
@@ -24,7 +25,9 @@ double CountTexels(const Receiver& receiver, const glm::dvec3& edge, double grow
   const double longest =
     std::max(glm::length(receiver.Base.EdgeX), glm::length(receiver.Base.EdgeY));
   const double wanted = receiver.Settings.TexelSize;
-  const double size = growth * (wanted > 0.0 ? wanted : longest / AutomaticTexels);
+  const double size = growth *
+    (wanted > 0.0 ? std::max(wanted, std::numeric_limits<double>::min())
+                  : longest / AutomaticTexels);
   const double length = glm::length(edge) * (1.0 - CountTolerance);
   return std::clamp(std::ceil(length / size), 1.0, MostTexels);
 }
@@ -65,6 +68,7 @@ double ShadowScene::ChooseTexels(std::size_t first)
   while (true)
   {
     double largestSide = 0.0;
+    bool canGrow = false; // one texel a receiver is the least
     double bytes = 0.0;
     for (std::size_t i = first; i < this->Receivers.size(); ++i)
     {
@@ -74,8 +78,9 @@ double ShadowScene::ChooseTexels(std::size_t first)
       const double y = supersampling * CountTexels(receiver, receiver.Base.EdgeY, growth);
       largestSide = std::max({ largestSide, x, y });
       bytes += BytesPerTexel * x * y;
+      canGrow = canGrow || x > supersampling || y > supersampling;
     }
-    if (largestSide <= MaximumTextureSide && bytes <= MaximumTextureBytes)
+    if (!canGrow || (largestSide <= MaximumTextureSide && bytes <= MaximumTextureBytes))
     {
       break;
     }

@@ -34,7 +34,7 @@ struct Surface
 };
 
 /// A receiver: one planar region of one surface.
-struct Receiver
+struct PENUMBRARENDERING_EXPORT Receiver
 {
   std::size_t Surface = 0;
   int Region = 0;
