@@ -35,10 +35,12 @@ vtkStandardNewMacro(vtkShadowSceneCollector);
 namespace
 {
 
-/// An actor that is drawn as a surface, as a prop of its own or as a part of an assembly.
+/// A visible actor of polygonal data, a prop of its own or a part of an assembly.
 struct Part
 {
   vtkActor* Actor;
+  bool IsSurface; ///< what is drawn as lines or points, or wholly transparent, blocks and receives
+                  ///< nothing
   vtkSmartPointer<vtkMatrix4x4> Matrix;
   vtkDataObject* Data;
   vtkCompositeDataDisplayAttributes* Attributes;
@@ -58,7 +60,7 @@ vtkCompositeDataDisplayAttributes* GetAttributes(vtkMapper* mapper)
 
 bool IsDrawnAsSurface(vtkActor* actor)
 {
-  return actor->GetVisibility() && actor->GetProperty()->GetOpacity() > 0.0 &&
+  return actor->GetProperty()->GetOpacity() > 0.0 &&
     actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
 }
 
@@ -76,7 +78,7 @@ vtkDataObject* GetMappedData(vtkMapper* mapper)
   return mapper->GetInputDataObject(0, 0);
 }
 
-/// Calls visit(prop, part) for every surface among the renderer's props.
+/// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
 template <typename Visitor>
 void VisitParts(vtkRenderer* renderer, Visitor&& visit)
 {
@@ -94,11 +96,13 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       vtkAssemblyNode* node = path->GetLastNode();
       auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
-      if (actor && actor->GetMapper() && IsDrawnAsSurface(actor))
+      if (actor && actor->GetVisibility() && actor->GetMapper())
       {
         if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
         {
-          visit(prop, Part{ actor, node->GetMatrix(), data, GetAttributes(actor->GetMapper()) });
+          visit(prop,
+            Part{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data,
+              GetAttributes(actor->GetMapper()) });
         }
       }
     }
@@ -109,7 +113,7 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
 bool MayReceive(vtkProp* prop, const Part& part, bool onlyDesignated)
 {
   vtkInformation* keys = prop->GetPropertyKeys();
-  return prop == part.Actor &&
+  return prop == part.Actor && part.IsSurface &&
     (!onlyDesignated || (keys && keys->Has(vtkSoftShadowPass::DESIGNATED())));
 }
 
@@ -151,6 +155,7 @@ void AppendTimes(std::vector<std::uint64_t>& signature, vtkDataObject* data)
 void AppendPart(std::vector<std::uint64_t>& signature, const Part& part, bool mayReceive)
 {
   Append(signature, part.Actor);
+  Append(signature, part.IsSurface);
   Append(signature, mayReceive);
   AppendTimes(signature, part.Data);
   if (part.Attributes)
@@ -194,11 +199,10 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
     [&](vtkProp* prop, const Part& part)
     {
       const std::size_t first = this->GetScene().Receivers.size();
-      const int receiver =
-        MayReceive(prop, part, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0;
-      this->Builder->AddData(part.Data, part.Matrix,
-        receiver | vtkShadowSceneBuilder::Occluder | vtkShadowSceneBuilder::Light,
-        Describe(part.Actor), part.Attributes);
+      const int roles = vtkShadowSceneBuilder::Light |
+        (part.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+        (MayReceive(prop, part, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
+      this->Builder->AddData(part.Data, part.Matrix, roles, Describe(part.Actor), part.Attributes);
       if (first < this->GetScene().Receivers.size())
       {
         ReceiverProp& entry = this->ReceiverProps.emplace_back();

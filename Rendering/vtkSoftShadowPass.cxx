@@ -166,7 +166,16 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
   vtkTextureUnitManager* units = window->GetState()->GetTextureUnitManager();
   this->Impl->Renderer = renderer;
   this->Impl->TextureUnit = this->Impl->Shown.empty() ? -1 : units->Allocate();
-  std::vector<vtkProp*> props = this->MarkReceivers();
+  std::vector<vtkProp*> props;
+  if (this->Impl->TextureUnit >= 0)
+  {
+    props = this->MarkReceivers();
+  }
+  else if (!this->Impl->Shown.empty())
+  {
+    vtkErrorMacro(
+      "No texture unit is free, and one is needed. Receivers are drawn without shadows.");
+  }
   vtkRenderState receivers(renderer);
   receivers.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
   receivers.SetFrameBuffer(s->GetFrameBuffer());

@@ -19,9 +19,9 @@
  * renderer->SetPass(pass);
  * @endcode
  *
- * Wherever there is no light, nothing is in shadow: receivers are then drawn plain. Occluders are
- * what is drawn as surfaces: actors in wireframe or points, and wholly transparent ones, cast no
- * shadow.
+ * Wherever there is no light, nothing is in shadow: receivers are then drawn plain. Lights shine
+ * while they are visible, however they are drawn. Occluders are what is drawn as surfaces: actors
+ * in wireframe or points, and wholly transparent ones, cast no shadow.
  *
  * @sa vtkAreaLightSource, vtkShadowReceiver, vtkRadianceMap
  */

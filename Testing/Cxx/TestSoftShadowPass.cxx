@@ -244,6 +244,28 @@ TEST(SoftShadowPass, AllKindsOfSurfacesBlockAlike)
   EXPECT_EQ(GetTexels(scene.Pass, 0), quads) << "assembly";
 }
 
+// A lamp may be drawn as one likes; a grid of lines casts no shadow.
+TEST(SoftShadowPass, LightsShineHoweverTheyAreDrawn)
+{
+  FloorScene scene;
+  scene.Render();
+  const std::vector<float> texels = GetTexels(scene.Pass, 0);
+  scene.LightActor->GetProperty()->SetRepresentationToWireframe();
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), texels);
+  scene.LightActor->GetProperty()->SetOpacity(0.0);
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), texels);
+
+  scene.SphereActor->GetProperty()->SetRepresentationToWireframe();
+  scene.Render();
+  const std::vector<float> unshadowed = GetTexels(scene.Pass, 0);
+  scene.SphereActor->VisibilityOff();
+  scene.Render();
+  EXPECT_EQ(GetTexels(scene.Pass, 0), unshadowed);
+  EXPECT_NE(unshadowed, texels);
+}
+
 TEST(SoftShadowPass, ABoxIsSixReceivers)
 {
   FloorScene scene;
