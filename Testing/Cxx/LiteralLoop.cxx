@@ -20,11 +20,14 @@
 namespace
 {
 
-/// H&H clip at z_u = 1 - epsilon, which keeps the receiver. What blocks must be above it, by more
-/// than rounding: z_u = 1/w > 1 + epsilon.
-constexpr float NearestDepth = 1.0f + 1e-6f;
 /// z_u "big": almost at the height of the sample.
 constexpr float FarthestDepth = 1e7f;
+/// The nearest and the farthest z_u of what blocks. H&H clip at 1 - epsilon, which keeps what lies
+/// in the receiver's plane; what blocks must be above it, by more than rounding.
+constexpr float OccluderDepths[2] = { 1.0f + 1e-6f, FarthestDepth };
+/// Those of the receiver, which is not clipped. (Mesa 22.3 clips by what a shader writes even where
+/// GL_CLIP_DISTANCE0 is off.)
+constexpr float ReceiverDepths[2] = { 0.0f, FarthestDepth };
 
 /// Points relative to the receiver's corner, through scale(sx, sy, 1) M, to OpenGL's clip
 /// coordinates. Whoever clips does so by the depth z_u = z/w, in [near, far].
@@ -201,7 +204,10 @@ public:
 
   /// Whether OpenGL can draw to it.
   bool IsComplete() const { return this->Complete; }
-  void BindAsTarget() const { this->State->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer); }
+  void BindAsTarget() const
+  {
+    this->State->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
+  }
   GLuint GetTexture() const { return this->Texture; }
 
   std::vector<glm::vec4> Download() const
@@ -226,8 +232,7 @@ private:
 std::vector<float> GetCorners(const penumbra::Parallelogram& base)
 {
   std::vector<float> corners;
-  for (const glm::dvec3& p :
-    { glm::dvec3(0.0), base.EdgeX, base.EdgeY, base.EdgeX + base.EdgeY })
+  for (const glm::dvec3& p : { glm::dvec3(0.0), base.EdgeX, base.EdgeY, base.EdgeX + base.EdgeY })
   {
     const glm::vec3 single(p);
     corners.insert(corners.end(), { single.x, single.y, single.z });
@@ -275,8 +280,8 @@ std::vector<penumbra::Surface::Triangle> GetOccluderTriangles(
 /// H&H 1997, 3.6, first test.
 bool IsReceiverBehind(const penumbra::PolygonLight& light, const penumbra::Parallelogram& base)
 {
-  for (const glm::dvec3& corner : { base.Corner, base.Corner + base.EdgeX,
-         base.Corner + base.EdgeY, base.Corner + base.EdgeX + base.EdgeY })
+  for (const glm::dvec3& corner : { base.Corner, base.Corner + base.EdgeX, base.Corner + base.EdgeY,
+         base.Corner + base.EdgeX + base.EdgeY })
   {
     if (glm::dot(corner - light.GetVertices()[0], light.GetNormal()) > 0.0)
     {
@@ -371,8 +376,8 @@ LiteralLoop::Bakery::Bakery(const penumbra::ShadowScene& scene, const penumbra::
 {
 }
 
-bool LiteralLoop::Bakery::DrawReceiver(const penumbra::PolygonLight& light, const glm::dvec3& apex,
-  const glm::mat4& pyramidToBox) const
+bool LiteralLoop::Bakery::DrawReceiver(
+  const penumbra::PolygonLight& light, const glm::dvec3& apex, const glm::mat4& pyramidToBox) const
 {
   vtkShaderProgram* program = this->Ready(VertexShader, ReceiverShader);
   if (!program)
@@ -380,6 +385,7 @@ bool LiteralLoop::Bakery::DrawReceiver(const penumbra::PolygonLight& light, cons
     return false;
   }
   program->SetUniformMatrix4x4("pyramidToBox", const_cast<float*>(glm::value_ptr(pyramidToBox)));
+  program->SetUniform2f("depthRange", ReceiverDepths);
   const glm::vec2 texels(this->Receiver.Texels);
   program->SetUniform2f("texels", glm::value_ptr(texels));
   SetVector(program, "edgeX", this->Receiver.Base.EdgeX);
@@ -402,15 +408,10 @@ bool LiteralLoop::Bakery::DrawOccluders(const glm::mat4& pyramidToBox) const
   }
   vtkOpenGLState* state = this->Window->GetState();
   program->SetUniformMatrix4x4("pyramidToBox", const_cast<float*>(glm::value_ptr(pyramidToBox)));
-  const float depthRange[2] = { NearestDepth, FarthestDepth };
-  program->SetUniform2f("depthRange", depthRange);
-  glEnable(GL_CLIP_DISTANCE0);
-  glEnable(GL_CLIP_DISTANCE1);
+  program->SetUniform2f("depthRange", OccluderDepths);
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, this->KeepsUnblocked ? GL_FALSE : GL_TRUE);
   this->Occluders.Draw(program, "relativePoint");
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDisable(GL_CLIP_DISTANCE1);
-  glDisable(GL_CLIP_DISTANCE0);
   return true;
 }
 
@@ -448,7 +449,13 @@ bool LiteralLoop::Bakery::AddLight(const penumbra::PolygonLight& light,
     }
     const glm::mat4 pyramidToBox(PyramidToBox(apex, glm::dvec3(0.0), base.EdgeX, base.EdgeY));
     this->HardShadow.BindAsTarget();
-    if (!this->DrawReceiver(light, apex, pyramidToBox) || !this->DrawOccluders(pyramidToBox) ||
+    glEnable(GL_CLIP_DISTANCE0);
+    glEnable(GL_CLIP_DISTANCE1);
+    const bool drawn =
+      this->DrawReceiver(light, apex, pyramidToBox) && this->DrawOccluders(pyramidToBox);
+    glDisable(GL_CLIP_DISTANCE1);
+    glDisable(GL_CLIP_DISTANCE0);
+    if (!drawn ||
       !this->Accumulate(light.GetArea() / static_cast<double>(pattern.size()), accumulator))
     {
       return false;
@@ -488,16 +495,15 @@ bool LiteralLoop::BakeLight(
 {
   const double start = vtkTimerLog::GetUniversalTime();
   const penumbra::Receiver& receiver = bakery.Receiver;
-  const penumbra::PolygonLight seen =
-    light.ClippedToFront(receiver.Base.Corner, bakery.Normal);
+  const penumbra::PolygonLight seen = light.ClippedToFront(receiver.Base.Corner, bakery.Normal);
   if (!seen.IsValid() || IsReceiverBehind(seen, receiver.Base))
   {
     return true;
   }
   const std::vector<glm::dvec2> pattern =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(receiver.Settings.SamplingPattern)]
-      .Generate(receiver.Settings.GetSampleCount(),
-        static_cast<std::uint32_t>(receiver.Settings.Seed));
+      .Generate(
+        receiver.Settings.GetSampleCount(), static_cast<std::uint32_t>(receiver.Settings.Seed));
   vtkOpenGLState* state = bakery.Window->GetState();
   const Image accumulator(receiver.Texels, state);
   if (!accumulator.IsComplete())
