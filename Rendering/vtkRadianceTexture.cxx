@@ -26,7 +26,6 @@ namespace
 constexpr int GutterTexels = 8;
 constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
-constexpr float Anisotropy = 4.0f;
 
 /// True if the allocation went through.
 bool AllocateFloats(
@@ -117,6 +116,8 @@ bool vtkRadianceTexture::Allocate(
     return false;
   }
 
+  this->HasVariance = true;
+
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglClearColor savedColor(state);
   this->BindAsTarget({ glm::ivec2(0), this->Size }, 0, this->Size.y, false);
@@ -175,14 +176,22 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& regi
 
 void vtkRadianceTexture::GenerateMipmaps()
 {
-  this->Irradiance->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
+  // On software OpenGL, blending two levels and anisotropy would double a frame's time.
+  this->Irradiance->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
+  this->Irradiance->SetMaximumAnisotropicFiltering(1.0f);
   this->Irradiance->SetMagnificationFilter(vtkTextureObject::Linear);
   this->Irradiance->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
-  this->Irradiance->SetMaximumAnisotropicFiltering(Anisotropy);
   this->Irradiance->Activate();
   this->Irradiance->SendParameters();
   glGenerateMipmap(GL_TEXTURE_2D);
   this->Irradiance->Deactivate();
+  this->HasMipmaps = true;
+}
+
+void vtkRadianceTexture::ReleaseVariance()
+{
+  this->Variance->ReleaseGraphicsResources(this->Window);
+  this->HasVariance = false;
 }
 
 vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
@@ -190,20 +199,26 @@ vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
   const auto count =
     static_cast<std::size_t>(region.Size.x) * static_cast<std::size_t>(region.Size.y);
   Texels texels;
-  texels.Irradiance.resize(count);
-  texels.Variance.resize(count);
   vtkOpenGLState* state = this->Window->GetState();
   state->Push();
-  this->BindAsTarget(region, 0, region.Size.y, false);
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
-  const auto read = [&](unsigned int attachment, unsigned int format, float* to)
+  this->Framebuffer->SetContext(this->Window);
+  this->Framebuffer->Bind(GL_FRAMEBUFFER);
+  const auto read = [&](vtkTextureObject* texture, unsigned int format, float* to)
   {
-    state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0 + attachment);
+    this->Framebuffer->AddColorAttachment(0, texture);
+    this->Framebuffer->ActivateReadBuffer(0);
     glReadPixels(
       region.Origin.x, region.Origin.y, region.Size.x, region.Size.y, format, GL_FLOAT, to);
+    this->Framebuffer->RemoveColorAttachment(0);
   };
-  read(0, GL_RGBA, &texels.Irradiance.front().x);
-  read(1, GL_RED, texels.Variance.data());
+  texels.Irradiance.resize(count);
+  read(this->Irradiance, GL_RGBA, &texels.Irradiance.front().x);
+  if (this->HasVariance)
+  {
+    texels.Variance.resize(count);
+    read(this->Variance, GL_RED, texels.Variance.data());
+  }
   state->Pop();
   return texels;
 }
@@ -212,8 +227,8 @@ std::size_t vtkRadianceTexture::GetBytes() const
 {
   const auto texels =
     static_cast<std::size_t>(this->Size.x) * static_cast<std::size_t>(this->Size.y);
-  std::size_t bytes = texels * sizeof(float); // the variance
-  const int levels = this->Gutter > 0 ? MipLevels : AllMipLevels;
+  std::size_t bytes = this->HasVariance ? texels * sizeof(float) : 0;
+  const int levels = !this->HasMipmaps ? 0 : this->Gutter > 0 ? MipLevels : AllMipLevels;
   glm::ivec2 size = this->Size;
   for (int level = 0; level <= levels && texels > 0; ++level)
   {
@@ -238,6 +253,8 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
   }
   this->Regions.clear();
   this->Size = glm::ivec2(0);
+  this->HasVariance = false;
+  this->HasMipmaps = false;
 }
 
 void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)

@@ -83,7 +83,12 @@ public:
   void GenerateMipmaps();
 
   /**
-   * Read a region back.
+   * Free the variance, which is not needed to show the texture.
+   */
+  void ReleaseVariance();
+
+  /**
+   * Read a region back; without variance, if that has been released.
    */
   Texels Download(const Region& region);
 
@@ -119,6 +124,8 @@ private:
   std::vector<Region> Regions;
   glm::ivec2 Size{ 0 };
   int Gutter = 0;
+  bool HasVariance = false;
+  bool HasMipmaps = false;
 };
 
 #endif

@@ -66,7 +66,10 @@ struct Writer
     vtkNew<Array> array;
     array->SetName(name);
     array->SetNumberOfComponents(components);
-    array->InsertNextTypedTuple(values);
+    for (int i = 0; i < components; ++i)
+    {
+      array->InsertNextValue(values[i]);
+    }
     this->FieldData->AddArray(array);
   }
 };

@@ -228,6 +228,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     ShownProp shown{ prop, receivers, vtkSmartPointer<vtkRadianceTexture>::New() };
     if (!this->Baker->Bake(scene, receivers, window, shown.Texture).empty())
     {
+      shown.Texture->ReleaseVariance();
       this->Impl->Shown.push_back(shown);
     }
   }

@@ -40,15 +40,21 @@ int penumbraFindReceiver(vec3 pixel)
 // The irradiance over pi at the fragment, and in a its mean if nothing were blocked.
 vec4 penumbraLookUp(int i, vec3 pixel)
 {
-  vec3 row[3] = vec3[3](penumbraRows[3 * i], penumbraRows[3 * i + 1], penumbraRows[3 * i + 2]);
-  float q = dot(row[2], pixel);
-  vec2 uv = vec2(dot(row[0], pixel), dot(row[1], pixel)) / q;
-  // The derivatives of (u q) / q: those that OpenGL would take of uv fail where one receiver meets the next.
-  vec2 dx = (vec2(row[0].x, row[1].x) - uv * row[2].x) / q;
-  vec2 dy = (vec2(row[0].y, row[1].y) - uv * row[2].y) / q;
+  vec3 rowU = penumbraRows[3 * i];
+  vec3 rowV = penumbraRows[3 * i + 1];
+  vec3 rowQ = penumbraRows[3 * i + 2];
+  float inverse = 1.0 / dot(rowQ, pixel);
+  vec2 uv = vec2(dot(rowU, pixel), dot(rowV, pixel)) * inverse;
+#if PENUMBRA_RECEIVERS == 1
+  return texture(penumbraTexture, uv); // the receiver fills its texture, which clamps to its edge
+#else
+  // The derivatives of (u q) / q: those that OpenGL would take fail where one receiver meets the next.
+  vec2 dx = (vec2(rowU.x, rowV.x) - uv * rowQ.x) * inverse;
+  vec2 dy = (vec2(rowU.y, rowV.y) - uv * rowQ.y) * inverse;
   vec4 place = penumbraPlaces[i];
   return textureGrad(
     penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw, dx * place.zw, dy * place.zw);
+#endif
 }
 
 // The factor of the diffuse shade: the radiance relative to what it would be unblocked, in the mean of the
