@@ -37,7 +37,8 @@ def build(samples=256, texel_size=24 / 512):
             AmbientRadiance=AMBIENT)
     bunny = pv.XMLPolyDataReader(
         registrationName="Bunny", FileName=[str(Path(__file__).resolve().parent / "bunny.vtp")])
-    smooth = pv.GenerateSurfaceNormals(registrationName="Smooth bunny", Input=bunny)
+    normals = getattr(pv, "SurfaceNormals", None) or pv.GenerateSurfaceNormals  # renamed by ParaView 5.13
+    smooth = normals(registrationName="Smooth bunny", Input=bunny)
     box = pv.Box(registrationName="Box", XLength=12, YLength=9, ZLength=1.0, Center=[0, 0, 0.5])
     receivers["Pedestal"] = pv.ShadowReceiver(  # six receivers, one a face
         registrationName="Pedestal", Input=box, LightSamples=samples, TexelSize=texel_size,

@@ -60,8 +60,9 @@ struct PENUMBRARENDERING_EXPORT ShadowScene
   /// The largest texture side and the most bytes that a surface's textures may take.
   static constexpr int MaximumTextureSide = 16384;
   static constexpr double MaximumTextureBytes = 256.0 * 1024 * 1024;
-  /// Bytes of the textures that hold a texel's radiance and variance.
-  static constexpr int BytesPerTexel = 20;
+  /// Bytes of a texel: 16 of irradiance with, once it is baked, a third more for its mip levels;
+  /// while it is being baked, 4 of variance instead.
+  static constexpr int BytesPerTexel = 22;
 
   /**
    * Sets the texels of the receivers from `first` on, which share a texture: along each edge as

@@ -111,12 +111,14 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowSc
   const penumbra::ReceiverFrame frame = scene.MakeFrame(r);
   const penumbra::ReceiverSettings& settings = r.Settings;
   const vtkRadianceTexture::Region place = texture->GetRegions()[region];
-  const int samples =
-    std::min(settings.GetSampleCount(), vtkVisibilityMask::GetMaximumSamples(window));
-  Job job{ scene, r, frame, ClipLights(scene.Lights, frame),
+  std::vector<glm::dvec2> pattern =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Generate(
-      samples, static_cast<std::uint32_t>(settings.Seed)),
-    window, texture, place, {} };
+      settings.GetSampleCount(), static_cast<std::uint32_t>(settings.Seed));
+  // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
+  pattern.resize(std::min(
+    pattern.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(window))));
+  Job job{ scene, r, frame, ClipLights(scene.Lights, frame), std::move(pattern), window, texture,
+    place, {} };
   job.Result.Receiver = receiver;
 
   if (settings.Supersampling > 1)
@@ -201,8 +203,8 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light)
     this->Resolver->Resolve(job.Target, job.Region, row, std::min(row + rows, size.y), this->Masks);
   }
   job.Result.LightSamples[light] = count;
-  job.Result.MaskBytes =
-    std::max(job.Result.MaskBytes, bytesPerRow * static_cast<std::size_t>(rows));
+  const std::size_t bytes = bytesPerRow * static_cast<std::size_t>(rows) + job.Target->GetBytes();
+  job.Result.PeakBytes = std::max(job.Result.PeakBytes, bytes);
   return true;
 }
 

@@ -49,8 +49,8 @@ public:
     std::vector<int> LightSamples;
     /// Triangles that could block light.
     std::size_t Triangles = 0;
-    /// Bytes of the masks, at their peak.
-    std::size_t MaskBytes = 0;
+    /// Bytes of masks and textures at their peak: while masks are there, mip levels are not.
+    std::size_t PeakBytes = 0;
     /// Seconds until OpenGL had finished.
     double Seconds = 0.0;
   };

@@ -78,6 +78,14 @@ vtkDataObject* GetMappedData(vtkMapper* mapper)
   return mapper->GetInputDataObject(0, 0);
 }
 
+/// Marks that programs draw over things, such as ParaView's outlines of what is selected, carry the
+/// field data of what they mark. They are lines or points that cannot be picked, and no part of the
+/// scene.
+bool IsMark(vtkActor* actor)
+{
+  return !IsDrawnAsSurface(actor) && !actor->GetPickable();
+}
+
 /// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
 template <typename Visitor>
 void VisitParts(vtkRenderer* renderer, Visitor&& visit)
@@ -96,7 +104,7 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       vtkAssemblyNode* node = path->GetLastNode();
       auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
-      if (actor && actor->GetVisibility() && actor->GetMapper())
+      if (actor && actor->GetVisibility() && actor->GetMapper() && !IsMark(actor))
       {
         if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
         {

@@ -146,6 +146,8 @@ void vtkVisibilityMask::ReleaseGraphicsResources()
   }
   if (this->Framebuffer != 0)
   {
+    // VTK remembers what is bound by name, and OpenGL gives names again.
+    this->Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDeleteFramebuffers(1, &this->Framebuffer);
     this->Framebuffer = 0;
   }

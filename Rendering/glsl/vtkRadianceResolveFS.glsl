@@ -44,25 +44,31 @@ float sampleWeight(int i, vec3 x)
   return s.w * d.z * abs(dot(lightNormal, d)) / (r2 * r2);
 }
 
-// The weights of the samples that are seen (x) and of all (y), in [begin, end). Sums of 32 go into the
-// total, so that rounding grows with n / 32 and not with n.
+// The weights of the samples that are seen (x) and of all (y), in [begin, end), which is within one word:
+// its bits from begin on are `blocked`. A loop without branches, for software OpenGL's vectors.
+vec2 sumWord(uint blocked, int begin, int end, vec3 x)
+{
+  vec2 part = vec2(0.0);
+  for (int i = begin; i < end; ++i)
+  {
+    float w = sampleWeight(i, x);
+    part += vec2((blocked & 1u) == 0u ? w : 0.0, w);
+    blocked >>= 1;
+  }
+  return part;
+}
+
+// The same in any range. Sums of words go into the total, so that rounding grows with n / 32 and not with n.
 vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x)
 {
   vec2 total = vec2(0.0);
-  vec2 part = vec2(0.0);
-  uint blocked = 0u;
-  for (int i = begin; i < end; ++i)
+  for (int i = begin; i < end;)
   {
-    if (i == begin || (i & 31) == 0)
-    {
-      blocked = blockedBits(texel, i >> 5);
-      total += part;
-      part = vec2(0.0);
-    }
-    float w = sampleWeight(i, x);
-    part += vec2(((blocked >> uint(i & 31)) & 1u) == 0u ? w : 0.0, w);
+    int stop = min(end, (i | 31) + 1);
+    total += sumWord(blockedBits(texel, i >> 5) >> uint(i & 31), i, stop, x);
+    i = stop;
   }
-  return total + part;
+  return total;
 }
 
 // The share of the light that is seen from x (x), and its variance (y) from what the halves say of it.

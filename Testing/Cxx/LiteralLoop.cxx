@@ -10,15 +10,20 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-#include "vtkTimerLog.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 
 namespace
 {
+
+/// Seconds since some moment.
+double GetTime()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// z_u "big": almost at the height of the sample.
 constexpr float FarthestDepth = 1e7f;
@@ -477,9 +482,9 @@ bool LiteralLoop::Bake(const penumbra::ShadowScene& scene, std::size_t receiver,
   state->Push();
   const penumbra::Receiver& r = scene.Receivers[receiver];
   SetState(state, r.Texels);
-  const double start = vtkTimerLog::GetUniversalTime();
+  const double start = GetTime();
   const Bakery bakery(scene, r, window, estimator == Estimator::Ratio);
-  this->Seconds = vtkTimerLog::GetUniversalTime() - start;
+  this->Seconds = GetTime() - start;
   bool done = bakery.HardShadow.IsComplete();
   for (std::size_t i = 0; i < scene.Lights.size() && done; ++i)
   {
@@ -493,7 +498,7 @@ bool LiteralLoop::Bake(const penumbra::ShadowScene& scene, std::size_t receiver,
 bool LiteralLoop::BakeLight(
   const Bakery& bakery, const penumbra::PolygonLight& light, std::size_t index)
 {
-  const double start = vtkTimerLog::GetUniversalTime();
+  const double start = GetTime();
   const penumbra::Receiver& receiver = bakery.Receiver;
   const penumbra::PolygonLight seen = light.ClippedToFront(receiver.Base.Corner, bakery.Normal);
   if (!seen.IsValid() || IsReceiverBehind(seen, receiver.Base))
@@ -513,7 +518,7 @@ bool LiteralLoop::BakeLight(
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
   const bool done = bakery.AddLight(seen, pattern, accumulator);
   glFinish();
-  this->Seconds += vtkTimerLog::GetUniversalTime() - start;
+  this->Seconds += GetTime() - start;
   this->Sums[index] = accumulator.Download();
   if (this->Kind == Estimator::Ratio)
   {

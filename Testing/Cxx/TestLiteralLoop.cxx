@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -30,13 +29,13 @@ constexpr double Tolerance = 1e-5;
 /// sqrt(2) / 512 of the true one; what is left to 1/256 is for single precision: 1e-3 texel.
 constexpr double EdgeTolerance = 1.0 / 256;
 
-/// The root mean square error of n = 1024 Sobol points, of the peak: the bound that issue 2 sets.
-constexpr double ConvergedError = 7e-4;
-
 /// The share of the texels at which that may happen. A vertex is torn if its rounding error, some
 /// 1e-5 texel, spans a border of the grid: 1 in 400. Of the texels along its edges, 1 in 500 has
 /// its centre in between. So some 1e-5 of the penumbra's texels differ for each sample and edge.
 constexpr double TossUpShare = 2e-3;
+
+/// The root mean square error of n = 1024 Sobol points, of the peak: the bound that issue 2 sets.
+constexpr double ConvergedError = 7e-4;
 
 /// Every kind of receiver and light, with enough texels for penumbrae of many.
 std::vector<TestScene> GetScenes()

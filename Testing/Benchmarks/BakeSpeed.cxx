@@ -1,0 +1,469 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What visibility masks gain over the loop of H&H 1997, section 3.5, what they take, and what baked
+// shadows cost a frame. See README.md.
+
+#include "LiteralLoop.h"
+#include "ShadowScene.h"
+
+#include "vtkActor.h"
+#include "vtkAreaLightSource.h"
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkHeadlessOSMesaRenderWindow.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkRadianceBaker.h"
+#include "vtkRadianceTexture.h"
+#include "vtkRenderer.h"
+#include "vtkShadowReceiver.h"
+#include "vtkSmartPointer.h"
+#include "vtkSoftShadowPass.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/// Seconds since some moment.
+double GetTime()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// How much is done.
+struct Plan
+{
+  int Texels = 512; ///< along each side of the floor
+  int Samples = 256;
+  int Runs = 5;
+  int Frames = 200; ///< of each kind
+  std::vector<int> Rings{ 4, 11 };
+  bool JudgesTimes = true;
+};
+
+/// CI's: enough for counts, too little for times.
+Plan MakeSmallestPlan()
+{
+  return { 64, 40, 1, 3, { 4 }, false };
+}
+
+constexpr double FloorEdge = 10.0;
+constexpr int Spheres = 12;
+
+/// Twelve spheres over the floor [0, 10]^2, each of `rings` rings of 2 `rings` quads, those at the
+/// poles triangles: 48 `rings` (`rings` - 1) triangles. The same on every machine.
+penumbra::Surface MakeSpheres(int rings)
+{
+  std::mt19937 random(1);
+  const auto next = [&]() { return random() / 4294967296.0; };
+  const double pi = std::acos(-1.0);
+  const int columns = 2 * rings;
+  penumbra::Surface surface;
+  for (int s = 0; s < Spheres; ++s)
+  {
+    const double x = 1.5 + 7.0 * next(), y = 1.5 + 7.0 * next(), z = 1.0 + 3.0 * next();
+    const double radius = 0.5 + 0.4 * next();
+    const auto first = static_cast<std::uint32_t>(surface.Points.size());
+    const auto index = [&](int ring, int column)
+    { return first + static_cast<std::uint32_t>(ring * columns + column % columns); };
+    for (int j = 0; j <= rings; ++j)
+    {
+      for (int i = 0; i < columns; ++i)
+      {
+        const double theta = pi * j / rings, phi = 2.0 * pi * i / columns;
+        surface.Points.push_back(glm::dvec3(x, y, z) +
+          radius *
+            glm::dvec3(
+              std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+      }
+    }
+    for (int j = 0; j < rings; ++j)
+    {
+      for (int i = 0; i < columns; ++i)
+      {
+        if (j > 0)
+        {
+          surface.Triangles.push_back({ index(j, i), index(j + 1, i), index(j, i + 1) });
+        }
+        if (j < rings - 1)
+        {
+          surface.Triangles.push_back({ index(j, i + 1), index(j + 1, i), index(j + 1, i + 1) });
+        }
+      }
+    }
+  }
+  return surface;
+}
+
+/// The floor under the spheres, and a light of 2 x 2 at a height of 8.
+penumbra::ShadowScene MakeScene(const Plan& plan, int rings)
+{
+  penumbra::Receiver receiver;
+  receiver.Base = { glm::dvec3(0.0), { FloorEdge, 0.0, 0.0 }, { 0.0, FloorEdge, 0.0 } };
+  receiver.Settings.LightSamples = plan.Samples;
+  receiver.Texels = glm::ivec2(plan.Texels);
+  penumbra::Surface floor;
+  floor.Points = { { 0, 0, 0 }, { FloorEdge, 0, 0 }, { FloorEdge, FloorEdge, 0 },
+    { 0, FloorEdge, 0 } };
+  floor.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  floor.Regions = { 0, 0 };
+  penumbra::ShadowScene scene;
+  scene.Surfaces = { floor, MakeSpheres(rings) };
+  scene.Receivers = { receiver };
+  scene.Lights = { penumbra::PolygonLight::Parallelogram({ 4, 4, 8 }, { 4, 6, 8 }, { 6, 4, 8 }) };
+  return scene;
+}
+
+double GetMedian(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// What was found of one scene's bake.
+struct BakeResult
+{
+  std::size_t Triangles = 0;
+  double MaskSeconds = 0.0;    ///< median
+  double LiteralSeconds = 0.0; ///< median
+  double PeakBytesPerTexel = 0.0;
+  double ShownBytesPerTexel = 0.0;
+  double AllowedBytesPerTexel = 0.0;
+  std::size_t Differing = 0;      ///< texels where masks and loop differ by over 1e-5 of the peak
+  double LargestDifference = 0.0; ///< of the peak
+  double Speedup() const { return this->LiteralSeconds / this->MaskSeconds; }
+};
+
+/// Texels at which single samples may differ, since an occluder's edge passes through the texel's
+/// centre: see TestLiteralLoop.cxx, which proves them so one by one.
+constexpr double TossUpShare = 2e-3;
+constexpr double Tolerance = 1e-5;
+
+void Compare(
+  const std::vector<glm::vec4>& baked, const std::vector<glm::dvec3>& reference, BakeResult& result)
+{
+  double peak = 0.0;
+  for (const glm::dvec3& value : reference)
+  {
+    peak = std::max(peak, value.x);
+  }
+  for (std::size_t i = 0; i < baked.size(); ++i)
+  {
+    const double difference = std::abs(static_cast<double>(baked[i].x) - reference[i].x) / peak;
+    result.LargestDifference = std::max(result.LargestDifference, difference);
+    result.Differing += difference <= Tolerance ? 0 : 1;
+  }
+}
+
+/// Masks and loop in turn, so that what disturbs the machine disturbs both.
+BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* window)
+{
+  const penumbra::ShadowScene scene = MakeScene(plan, rings);
+  const double texels = static_cast<double>(plan.Texels) * plan.Texels;
+  vtkNew<vtkRadianceBaker> baker;
+  vtkNew<vtkRadianceTexture> texture;
+  LiteralLoop loop;
+  BakeResult result;
+
+  // Untimed: shaders are compiled; and the loop's ratio form is what the masks compute.
+  const auto reports = baker->Bake(scene, { 0 }, window, texture);
+  loop.Bake(scene, 0, window, LiteralLoop::Estimator::Ratio);
+  Compare(
+    texture->Download(texture->GetRegions().front()).Irradiance, loop.GetIrradiance(), result);
+  result.Triangles = reports.front().Triangles;
+  result.PeakBytesPerTexel = static_cast<double>(reports.front().PeakBytes) / texels;
+  result.ShownBytesPerTexel = static_cast<double>(texture->GetBytes()) / texels;
+  result.AllowedBytesPerTexel = reports.front().LightSamples.front() / 8.0 + 24.0;
+
+  std::vector<double> masks, literal;
+  for (int run = 0; run < plan.Runs; ++run)
+  {
+    const double start = GetTime();
+    baker->Bake(scene, { 0 }, window, texture);
+    window->WaitForCompletion();
+    masks.push_back(GetTime() - start);
+    loop.Bake(scene, 0, window, LiteralLoop::Estimator::PlainSum);
+    literal.push_back(loop.GetSeconds());
+  }
+  texture->ReleaseGraphicsResources();
+  result.MaskSeconds = GetMedian(masks);
+  result.LiteralSeconds = GetMedian(literal);
+  return result;
+}
+
+vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithm* algorithm)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(algorithm->GetOutputPort());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+vtkSmartPointer<vtkPolyData> MakePolyData(const penumbra::Surface& surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const glm::dvec3& p : surface.Points)
+  {
+    points->InsertNextPoint(p.x, p.y, p.z);
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (const penumbra::Surface::Triangle& t : surface.Triangles)
+  {
+    triangles->InsertNextCell({ t[0], t[1], t[2] });
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  return data;
+}
+
+/// The bake's scene twice, with the pass and without, by renderers that fill the same window in
+/// turn: a renderer whose pass came and went would build its shaders anew each time.
+class View
+{
+public:
+  View(const Plan& plan, vtkRenderWindow* window);
+
+  /// Seconds of a frame.
+  double DrawFrame(bool shadows);
+  void MoveCamera() { this->Camera->Azimuth(1.0); }
+  int GetBakeCount() { return this->Pass->GetBakeCount(); }
+
+private:
+  void Fill(const Plan& plan, vtkRenderer* renderer);
+
+  vtkRenderWindow* Window;
+  vtkNew<vtkCamera> Camera;
+  vtkNew<vtkRenderer> Plain;
+  vtkNew<vtkRenderer> Shadowed;
+  vtkNew<vtkSoftShadowPass> Pass;
+};
+
+View::View(const Plan& plan, vtkRenderWindow* window)
+  : Window(window)
+{
+  // The floor fills most of the picture.
+  this->Camera->SetFocalPoint(FloorEdge / 2, FloorEdge / 2, 0.0);
+  this->Camera->SetPosition(FloorEdge / 2, -0.6 * FloorEdge, 0.9 * FloorEdge);
+  this->Camera->SetViewUp(0.0, 0.0, 1.0);
+  for (vtkRenderer* renderer : { this->Plain.Get(), this->Shadowed.Get() })
+  {
+    this->Fill(plan, renderer);
+    renderer->SetActiveCamera(this->Camera);
+    this->Window->AddRenderer(renderer);
+    renderer->ResetCameraClippingRange();
+  }
+  this->Shadowed->SetPass(this->Pass);
+}
+
+void View::Fill(const Plan& plan, vtkRenderer* renderer)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(0.0, 0.0, 0.0);
+  plane->SetPoint1(FloorEdge, 0.0, 0.0);
+  plane->SetPoint2(0.0, FloorEdge, 0.0);
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputConnection(plane->GetOutputPort());
+  receiver->SetTexelSize(FloorEdge / plan.Texels);
+  receiver->SetLightSamples(plan.Samples);
+  renderer->AddActor(MakeActor(receiver));
+
+  vtkNew<vtkAreaLightSource> light;
+  light->SetOrigin(4.0, 4.0, 8.0);
+  light->SetPoint1(4.0, 6.0, 8.0);
+  light->SetPoint2(6.0, 4.0, 8.0);
+  renderer->AddActor(MakeActor(light));
+
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakePolyData(MakeSpheres(plan.Rings.back())));
+  vtkNew<vtkActor> spheres;
+  spheres->SetMapper(mapper);
+  renderer->AddActor(spheres);
+}
+
+double View::DrawFrame(bool shadows)
+{
+  this->Plain->SetDraw(!shadows);
+  this->Shadowed->SetDraw(shadows);
+  const double start = GetTime();
+  this->Window->Render();
+  this->Window->WaitForCompletion();
+  return GetTime() - start;
+}
+
+/// What was found of the display.
+struct FrameResult
+{
+  double PlainSeconds = 0.0;  ///< median
+  double ShadowSeconds = 0.0; ///< median
+  double Ratio = 0.0;         ///< median of the ratios of neighbouring frames
+  int Bakes = 0;
+};
+
+/// Frames that compile shaders and bake, and do not count.
+constexpr int WarmUpFrames = 4;
+
+FrameResult MeasureFrames(const Plan& plan, vtkRenderWindow* window)
+{
+  View view(plan, window);
+  std::vector<double> plain, shadows, ratios;
+  for (int frame = -WarmUpFrames; frame < plan.Frames; ++frame)
+  {
+    // Which one comes first changes.
+    const bool first = frame % 2 == 0;
+    const double a = view.DrawFrame(first);
+    const double b = view.DrawFrame(!first);
+    if (frame >= 0)
+    {
+      shadows.push_back(first ? a : b);
+      plain.push_back(first ? b : a);
+      ratios.push_back(shadows.back() / plain.back());
+    }
+    view.MoveCamera();
+  }
+  return { GetMedian(plain), GetMedian(shadows), GetMedian(ratios), view.GetBakeCount() };
+}
+
+/// What issue 2 asks for.
+constexpr double RequiredSpeedups[] = { 2.0, 1.4 };
+constexpr double LargestFrameRatio = 1.05;
+
+void PrintTable(const Plan& plan, const std::vector<BakeResult>& bakes, const FrameResult& frames)
+{
+  std::printf("%d x %d texels, n = %d, medians of %d runs\n\n", plan.Texels, plan.Texels,
+    plan.Samples, plan.Runs);
+  std::printf("| triangles | masks, s | literal, s | speed-up | bytes a texel: at the peak, then | "
+              "allowed | texels that differ | largest difference |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
+  for (const BakeResult& b : bakes)
+  {
+    std::printf("| %zu | %.3f | %.3f | %.2f | %.2f, %.2f | %.2f | %zu | %.1e |\n", b.Triangles,
+      b.MaskSeconds, b.LiteralSeconds, b.Speedup(), b.PeakBytesPerTexel, b.ShownBytesPerTexel,
+      b.AllowedBytesPerTexel, b.Differing, b.LargestDifference);
+  }
+  std::printf("\nFrames, 800 x 600, medians of %d: without shadows %.3f ms, with %.3f ms, ratio "
+              "%.3f; bakes: %d\n",
+    plan.Frames, 1e3 * frames.PlainSeconds, 1e3 * frames.ShadowSeconds, frames.Ratio, frames.Bakes);
+}
+
+bool WriteJson(const std::string& path, const Plan& plan, const std::vector<BakeResult>& bakes,
+  const FrameResult& frames)
+{
+  std::ofstream file(path);
+  file << "{\n  \"texels\": " << plan.Texels << ", \"samples\": " << plan.Samples
+       << ", \"runs\": " << plan.Runs << ",\n  \"bakes\": [";
+  const char* separator = "\n";
+  for (const BakeResult& b : bakes)
+  {
+    file << separator << "    { \"triangles\": " << b.Triangles
+         << ", \"maskSeconds\": " << b.MaskSeconds << ", \"literalSeconds\": " << b.LiteralSeconds
+         << ", \"speedup\": " << b.Speedup() << ", \"peakBytesPerTexel\": " << b.PeakBytesPerTexel
+         << ", \"shownBytesPerTexel\": " << b.ShownBytesPerTexel
+         << ", \"allowedBytesPerTexel\": " << b.AllowedBytesPerTexel
+         << ", \"differingTexels\": " << b.Differing
+         << ", \"largestDifference\": " << b.LargestDifference << " }";
+    separator = ",\n";
+  }
+  file << "\n  ],\n  \"frames\": { \"count\": " << plan.Frames
+       << ", \"plainSeconds\": " << frames.PlainSeconds
+       << ", \"shadowSeconds\": " << frames.ShadowSeconds << ", \"ratio\": " << frames.Ratio
+       << ", \"bakes\": " << frames.Bakes << " }\n}\n";
+  file.close();
+  return !file.fail();
+}
+
+/// Prints a line for what is not as required; the answer is whether it is.
+bool Require(bool holds, const std::string& what)
+{
+  if (!holds)
+  {
+    std::printf("FAILED: %s\n", what.c_str());
+  }
+  return holds;
+}
+
+bool Judge(const Plan& plan, const std::vector<BakeResult>& bakes, const FrameResult& frames)
+{
+  bool good = Require(frames.Bakes == 1, "moving the camera must not bake");
+  for (std::size_t i = 0; i < bakes.size(); ++i)
+  {
+    const BakeResult& b = bakes[i];
+    const std::string name = std::to_string(b.Triangles) + " triangles: ";
+    good &= Require(static_cast<double>(b.Differing) <= TossUpShare * plan.Texels * plan.Texels,
+      name + "masks and loop must agree to 1e-5 of the peak");
+    good &= Require(std::max(b.PeakBytesPerTexel, b.ShownBytesPerTexel) <= b.AllowedBytesPerTexel,
+      name + "masks and textures must take no more than n/8 + 24 bytes a texel");
+    good &= Require(!plan.JudgesTimes || b.Speedup() >= RequiredSpeedups[i],
+      name + "masks must be " + std::to_string(RequiredSpeedups[i]) + " times as fast");
+  }
+  return good &
+    Require(!plan.JudgesTimes || frames.Ratio <= LargestFrameRatio,
+      "a frame with baked shadows must take no more than 1.05 of one without");
+}
+
+int Run(const Plan& plan, const std::string& jsonPath)
+{
+  vtkNew<vtkHeadlessOSMesaRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(800, 600);
+  window->Render();
+  if (!window->SupportsOpenGL())
+  {
+    std::fprintf(stderr, "BakeSpeed: no OpenGL: %s\n", window->ReportCapabilities());
+    return 1;
+  }
+  std::vector<BakeResult> bakes;
+  for (const int rings : plan.Rings)
+  {
+    bakes.push_back(MeasureBake(plan, rings, window));
+  }
+  const FrameResult frames = MeasureFrames(plan, window);
+  PrintTable(plan, bakes, frames);
+  if (!jsonPath.empty() && !WriteJson(jsonPath, plan, bakes, frames))
+  {
+    std::fprintf(stderr, "BakeSpeed: cannot write %s\n", jsonPath.c_str());
+    return 1;
+  }
+  return Judge(plan, bakes, frames) ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  Plan plan;
+  std::string jsonPath;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (argument == "--smallest")
+    {
+      plan = MakeSmallestPlan();
+    }
+    else if (argument[0] != '-' && jsonPath.empty())
+    {
+      jsonPath = argument;
+    }
+    else
+    {
+      std::fprintf(stderr, "usage: BakeSpeed [--smallest] [results.json]\n");
+      return 2;
+    }
+  }
+  return Run(plan, jsonPath);
+}
