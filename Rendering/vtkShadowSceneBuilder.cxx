@@ -158,27 +158,27 @@ void Triangulate(vtkPolyData* polygons, penumbra::Surface& surface)
   }
 }
 
-/// Drops triangles with a point that is not finite; the answer is how many there were.
-std::size_t DropInfiniteTriangles(penumbra::Surface& surface)
+/// Drops polygons with a point that is not finite; the answer is how many there were. They go
+/// before they are triangulated: VTK may drop them silently.
+vtkIdType DropInfinitePolygons(const penumbra::Surface& surface, vtkPolyData* polygons)
 {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  if (std::all_of(surface.Points.begin(), surface.Points.end(), IsFinite))
   {
-    const penumbra::Surface::Triangle triangle = surface.Triangles[i];
-    if (std::all_of(triangle.begin(), triangle.end(),
-          [&](std::uint32_t id) { return IsFinite(surface.Points[id]); }))
+    return 0;
+  }
+  vtkNew<vtkCellArray> kept;
+  vtkNew<vtkIdList> cell;
+  for (vtkIdType i = 0; i < polygons->GetNumberOfPolys(); ++i)
+  {
+    polygons->GetPolys()->GetCellAtId(i, cell);
+    if (std::all_of(cell->begin(), cell->end(),
+          [&](vtkIdType id) { return IsFinite(surface.Points[static_cast<std::size_t>(id)]); }))
     {
-      surface.Triangles[kept] = triangle;
-      if (!surface.Regions.empty())
-      {
-        surface.Regions[kept] = surface.Regions[i];
-      }
-      ++kept;
+      kept->InsertNextCell(cell);
     }
   }
-  const std::size_t dropped = surface.Triangles.size() - kept;
-  surface.Triangles.resize(kept);
-  surface.Regions.resize(surface.Regions.empty() ? 0 : kept);
+  const vtkIdType dropped = polygons->GetNumberOfPolys() - kept->GetNumberOfCells();
+  polygons->SetPolys(kept);
   return dropped;
 }
 
@@ -272,13 +272,13 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   {
     this->AddReceivers(polygons, *receiver, surface, name);
   }
-  Triangulate(polygons, surface);
-  if (const std::size_t dropped = DropInfiniteTriangles(surface))
+  if (const vtkIdType dropped = DropInfinitePolygons(surface, polygons))
   {
     vtkErrorMacro("Surface '" << name << "': " << dropped
-                              << " triangles have a coordinate that is not finite; allowed: finite "
+                              << " polygons have a coordinate that is not finite; allowed: finite "
                                  "coordinates. They are left out.");
   }
+  Triangulate(polygons, surface);
   this->Scene.Surfaces.push_back(std::move(surface));
 }
 

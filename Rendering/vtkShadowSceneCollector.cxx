@@ -142,19 +142,25 @@ void Append(std::vector<std::uint64_t>& signature, const Value& value)
   signature.push_back(word);
 }
 
-/// The data's own time does not tell of changes in its blocks.
-void AppendTimes(std::vector<std::uint64_t>& signature, vtkDataObject* data)
+/// The data's own time does not tell of changes in its blocks. The attributes' time tells of too
+/// much: ParaView writes them anew, the same, in the frame after each update.
+void AppendData(std::vector<std::uint64_t>& signature, vtkDataObject* data,
+  vtkCompositeDataDisplayAttributes* attributes)
 {
   Append(signature, data);
   Append(signature, data->GetMTime());
+  const bool hasVisibility = attributes && attributes->HasBlockVisibility(data);
+  Append(signature, hasVisibility);
+  Append(signature, hasVisibility && attributes->GetBlockVisibility(data));
   if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
   {
     vtkSmartPointer<vtkDataObjectTreeIterator> it;
     it.TakeReference(tree->NewTreeIterator());
+    it->VisitOnlyLeavesOff();
+    it->TraverseSubTreeOff();
     for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
     {
-      Append(signature, it->GetCurrentDataObject());
-      Append(signature, it->GetCurrentDataObject()->GetMTime());
+      AppendData(signature, it->GetCurrentDataObject(), attributes);
     }
   }
 }
@@ -165,11 +171,7 @@ void AppendPart(std::vector<std::uint64_t>& signature, const Part& part, bool ma
   Append(signature, part.Actor);
   Append(signature, part.IsSurface);
   Append(signature, mayReceive);
-  AppendTimes(signature, part.Data);
-  if (part.Attributes)
-  {
-    Append(signature, part.Attributes->GetMTime());
-  }
+  AppendData(signature, part.Data, part.Attributes);
   for (int i = 0; part.Matrix && i < 16; ++i)
   {
     Append(signature, part.Matrix->GetElement(i / 4, i % 4));

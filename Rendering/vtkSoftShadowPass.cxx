@@ -197,6 +197,10 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
 {
   const bool isNewWindow = window != this->Impl->Window ||
     window->GetContextCreationTime() > this->Impl->BakeTime.GetMTime();
+  if (this->KeepBakes && !isNewWindow && !this->Impl->Shown.empty())
+  {
+    return;
+  }
   if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow)
   {
     this->BakeReceivers(window);
@@ -385,6 +389,7 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DelegatePass: " << this->DelegatePass << "\n";
   os << indent << "Shading: " << this->Shading << "\n";
   os << indent << "OnlyDesignated: " << this->OnlyDesignated << "\n";
+  os << indent << "KeepBakes: " << this->KeepBakes << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

@@ -87,6 +87,16 @@ public:
 
   ///@{
   /**
+   * While on, what has been baked is shown as it is, whatever has changed since: for frames in
+   * which coarser data stand in for the real ones. Default is off.
+   */
+  vtkSetMacro(KeepBakes, bool);
+  vtkGetMacro(KeepBakes, bool);
+  vtkBooleanMacro(KeepBakes, bool);
+  ///@}
+
+  ///@{
+  /**
    * Name a prop as a receiver with a shading mode of its own, or take that back. It is written into
    * the prop's property keys, for all passes.
    */
@@ -149,6 +159,7 @@ private:
   vtkSmartPointer<vtkRenderPass> DelegatePass;
   int Shading = SHADOW;
   bool OnlyDesignated = false;
+  bool KeepBakes = false;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;
   std::unique_ptr<Internals> Impl;

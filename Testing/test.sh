@@ -27,7 +27,7 @@ check_format()
 
 run_tests()
 {
-  ctest --test-dir "$build" --output-on-failure --no-tests=error "$@"
+  ctest --test-dir "$build" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"
 }
 
 install_packages clang-format libgtest-dev xvfb xauth

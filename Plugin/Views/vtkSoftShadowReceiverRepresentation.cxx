@@ -27,8 +27,12 @@ int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_RENDER())
   {
     auto* view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-    if (view && vtkSoftShadowViewHook::GetPass(view))
+    vtkSoftShadowPass* pass = view ? vtkSoftShadowViewHook::GetPass(view) : nullptr;
+    if (pass)
     {
+      // While the camera moves, ParaView may give all mappers decimated data, whose shadows are not
+      // wanted.
+      pass->SetKeepBakes(input->Has(vtkPVRenderView::USE_LOD()) != 0);
       vtkSoftShadowPass::Designate(this->GetActor(), this->ShadowShading);
     }
   }

@@ -169,7 +169,7 @@ TEST(BadInput, NaNInOccluder)
   floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, occluder->GetOutputPort());
   const Messages messages;
   floor.ExpectFinite();
-  messages.ExpectOne({ "Occluders[0]", "1 triangles", "not finite", "allowed" });
+  messages.ExpectOne({ "Occluders[0]", "1 polygons", "not finite", "allowed" });
 }
 
 TEST(BadInput, LightWithoutArea)

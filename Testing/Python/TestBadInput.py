@@ -116,7 +116,8 @@ def check_tiny_texels():
     check_message("tiny texels", messages, "TexelSize", "1e-09", "16384", "256 MiB")
     found = find_pass(shown.view).GetTextureBytes()
     checks.at_most(found, MAXIMUM_TEXTURE_BYTES, "tiny texels: bytes of the textures")
-    checks.at_least(found, 0.99 * MAXIMUM_TEXTURE_BYTES, "tiny texels: bytes of the textures")
+    # The bake counts 22 bytes a texel of which 16 x 4/3 stay: 97 %.
+    checks.at_least(found, 0.96 * MAXIMUM_TEXTURE_BYTES, "tiny texels: bytes of the textures")
 
 
 def check_properties():
