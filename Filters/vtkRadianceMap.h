@@ -56,8 +56,9 @@ public:
 
   ///@{
   /**
-   * Disconnect all inputs of a port, as RemoveAllInputConnections() with the port's number: ParaView
-   * wants a name without arguments. Inputs are connected by AddInputConnection(port, output).
+   * Disconnect all inputs of a port, as RemoveAllInputConnections() with the port's number:
+   * ParaView wants a name without arguments. Inputs are connected by AddInputConnection(port,
+   * output).
    */
   void RemoveAllReceivers() { this->RemoveAllInputConnections(RECEIVERS); }
   void RemoveAllOccluders() { this->RemoveAllInputConnections(OCCLUDERS); }
