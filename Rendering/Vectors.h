@@ -3,7 +3,7 @@
 
 /**
  * GLM's vectors and matrices. VTK's wrapping tools, which read headers to make Python modules of
- * them, take hours over GLM's: they do without.
+ * them, take more than ten minutes over GLM's (then they were stopped): they do without.
  */
 #ifndef Vectors_h
 #define Vectors_h
