@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkAreaLightSource
- * @brief makes an area light: a polygon that emits diffusely
+ * @brief makes a light: a surface, a line, a point or a sun
  *
- * The output is the light's polygon with its properties as field data, by which vtkSoftShadowPass
- * and vtkRadianceMap know it. Light leaves it towards (Point1 - Origin) x (Point2 - Origin), or
- * both ways if TwoSided. The light's own surface blocks no light.
+ * The output is the light's outline with its properties as field data, by which vtkSoftShadowPass
+ * and vtkRadianceMap know it. A surface (parallelogram, triangle or disk) emits diffusely, towards
+ * (Point1 - Origin) x (Point2 - Origin), or both ways if TwoSided; a segment as a thin diffuse
+ * cylinder does; a point the same in all directions; a directional light shines along Point1 -
+ * Origin, from infinity. The light's own outline blocks no light.
  *
- * A light without area, or with a coordinate that is not finite, is an error and gives an empty
- * output.
+ * A light without extent (or, if directional, without a direction), or with a coordinate that is
+ * not finite, is an error and gives an empty output.
  *
- * @sa vtkShadowReceiver, vtkRadianceMap, vtkSoftShadowPass
+ * @sa vtkAreaLightFromSurface, vtkShadowReceiver, vtkRadianceMap, vtkSoftShadowPass
  */
 #ifndef vtkAreaLightSource_h
 #define vtkAreaLightSource_h
@@ -30,7 +32,11 @@ public:
   enum Shapes
   {
     PARALLELOGRAM = 0, ///< Origin, Point1, Point1 + Point2 - Origin, Point2
-    TRIANGLE = 1       ///< Origin, Point1, Point2
+    TRIANGLE = 1,      ///< Origin, Point1, Point2
+    DISK = 2,          ///< around Origin, through Point1, in the plane of Origin, Point1 and Point2
+    SEGMENT = 3,       ///< Origin to Point1
+    POINT = 4,         ///< Origin
+    DIRECTIONAL = 5    ///< from Origin towards Point1, everywhere
   };
 
   ///@{
@@ -43,9 +49,8 @@ public:
 
   ///@{
   /**
-   * The corner of the light from which its edges go to Point1 and Point2, in world units. Defaults
-   * are
-   * (-0.5, -0.5, 0), (0.5, -0.5, 0) and (-0.5, 0.5, 0).
+   * The points that Shapes speaks of, in world units. Defaults are (-0.5, -0.5, 0), (0.5, -0.5, 0)
+   * and (-0.5, 0.5, 0).
    */
   vtkSetVector3Macro(Origin, double);
   vtkGetVector3Macro(Origin, double);
@@ -57,7 +62,9 @@ public:
 
   ///@{
   /**
-   * Emitted radiance (red, green, blue), W sr^-1 m^-2, 0 to 1e30 each. Default is (1, 1, 1).
+   * What is emitted (red, green, blue), 0 to 1e30 each: radiance, W sr^-1 m^-2, of a surface;
+   * W sr^-1 m^-1, across it, of a segment; radiant intensity, W sr^-1, of a point; irradiance at
+   * normal incidence, W m^-2, of a directional light. Default is (1, 1, 1).
    */
   vtkSetVector3Macro(Radiance, double);
   vtkGetVector3Macro(Radiance, double);
@@ -65,11 +72,20 @@ public:
 
   ///@{
   /**
-   * Whether the light emits to both sides. Default is off.
+   * Whether a surface emits to both sides. Default is off.
    */
   vtkSetMacro(TwoSided, bool);
   vtkGetMacro(TwoSided, bool);
   vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The angle in degrees that a directional light fills in the sky, 0 (a point at infinity) to less
+   * than 180. Default is 0.53: the sun.
+   */
+  vtkSetMacro(AngularDiameter, double);
+  vtkGetMacro(AngularDiameter, double);
   ///@}
 
 protected:
@@ -89,6 +105,7 @@ private:
   double Point2[3] = { -0.5, 0.5, 0.0 };
   double Radiance[3] = { 1.0, 1.0, 1.0 };
   bool TwoSided = false;
+  double AngularDiameter = 0.53;
 };
 
 #endif

@@ -34,6 +34,10 @@ int vtkShadowReceiver::RequestData(
   settings.AmbientRadiance = glm::make_vec3(this->AmbientRadiance);
   settings.Side = static_cast<penumbra::ReceiverSide>(this->Side);
   settings.Seed = this->Seed;
+  settings.SolidAnglePerSample = this->SolidAnglePerSample;
+  settings.ErrorTolerance = this->ErrorTolerance;
+  settings.MaximumLightSamples = this->MaximumLightSamples;
+  settings.Reconstruction = this->Reconstruction;
   std::string problem = settings.FindProblem();
   if (problem.empty())
   {
@@ -62,4 +66,8 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   print("AmbientRadiance", this->AmbientRadiance);
   os << indent << "Side: " << this->Side << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "SolidAnglePerSample: " << this->SolidAnglePerSample << "\n";
+  os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
+  os << indent << "MaximumLightSamples: " << this->MaximumLightSamples << "\n";
+  os << indent << "Reconstruction: " << this->Reconstruction << "\n";
 }

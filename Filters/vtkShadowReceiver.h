@@ -122,6 +122,46 @@ public:
   vtkGetMacro(Seed, int);
   ///@}
 
+  ///@{
+  /**
+   * With a value > 0, in steradians: each light gets, instead of LightSamples, as many samples as
+   * keep the solid angle that one stands for, seen from the receiver's nearest point, below it
+   * (Heckbert and Herf 1997, 3.7); at most MaximumLightSamples. Segments, points and lights of one
+   * direction have no solid angle and keep LightSamples. Default is 0: off.
+   */
+  vtkSetMacro(SolidAnglePerSample, double);
+  vtkGetMacro(SolidAnglePerSample, double);
+  ///@}
+
+  ///@{
+  /**
+   * With a value > 0, up to 1: samples are added in batches until the estimated standard error,
+   * root mean square over the receiver, is below this share of the receiver's peak radiance, or
+   * MaximumLightSamples is reached. LightSamples then says nothing. Default is 0: off.
+   */
+  vtkSetMacro(ErrorTolerance, double);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The most samples of a light that SolidAnglePerSample or ErrorTolerance may take, 1 to 65536.
+   * Default is 4096.
+   */
+  vtkSetMacro(MaximumLightSamples, int);
+  vtkGetMacro(MaximumLightSamples, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether visibility is filtered across texels within penumbras: neighbours see an occluder's
+   * edge cross different samples, so that their errors partly cancel. Default is on.
+   */
+  vtkSetMacro(Reconstruction, bool);
+  vtkGetMacro(Reconstruction, bool);
+  vtkBooleanMacro(Reconstruction, bool);
+  ///@}
+
 protected:
   vtkShadowReceiver();
   ~vtkShadowReceiver() override;
@@ -142,6 +182,10 @@ private:
   double AmbientRadiance[3] = { 0.0, 0.0, 0.0 };
   int Side = AUTO;
   int Seed = 0;
+  double SolidAnglePerSample = 0.0;
+  double ErrorTolerance = 0.0;
+  int MaximumLightSamples = 4096;
+  bool Reconstruction = true;
 };
 
 #endif

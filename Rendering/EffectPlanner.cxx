@@ -22,7 +22,7 @@ const char* GetEffectName(Effect effect)
   return "Soft";
 }
 
-Effect PlanEffect(const ReceiverFrame& frame, const PolygonLight& seen, bool hasOccluders)
+Effect PlanEffect(const ReceiverFrame& frame, const LightShape& seen, bool hasOccluders)
 {
   if (!seen.IsValid() || seen.Radiance == glm::dvec3(0.0))
   {
@@ -30,13 +30,10 @@ Effect PlanEffect(const ReceiverFrame& frame, const PolygonLight& seen, bool has
   }
   // H&H 1997, 3.6, first test: is the receiver's parallelogram entirely behind the light?
   const std::array<glm::dvec2, 4> corners{ { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } };
-  const bool facesReceiver = seen.TwoSided ||
-    std::any_of(corners.begin(), corners.end(),
-      [&](const glm::dvec2& c)
-      {
-        const glm::dvec3 corner = frame.ToWorld({ c, 0.0 });
-        return glm::dot(corner - seen.GetVertices()[0], seen.GetNormal()) > 0.0;
-      });
+  const bool facesReceiver = std::any_of(corners.begin(), corners.end(),
+    [&](const glm::dvec2& c) {
+      return seen.Faces(frame.ToWorld({ c, 0.0 }));
+    });
   if (!facesReceiver)
   {
     return Effect::None;

@@ -7,8 +7,8 @@
 #ifndef EffectPlanner_h
 #define EffectPlanner_h
 
+#include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "PolygonLight.h"
 #include "ReceiverFrame.h"
 
 namespace penumbra
@@ -29,11 +29,11 @@ PENUMBRARENDERING_EXPORT const char* GetEffectName(Effect effect);
  * Plans one pair from bounds alone.
  *
  * @param frame the receiver
- * @param seen the light, clipped to the receiver's lit side (PolygonLight::ClippedToFront)
+ * @param seen the light, clipped to the receiver's lit side (LightShape::Clip)
  * @param hasOccluders whether any triangle reaches between the receiver and the light
  */
 PENUMBRARENDERING_EXPORT Effect PlanEffect(
-  const ReceiverFrame& frame, const PolygonLight& seen, bool hasOccluders);
+  const ReceiverFrame& frame, const LightShape& seen, bool hasOccluders);
 
 } // namespace penumbra
 

@@ -13,10 +13,12 @@ namespace penumbra
 namespace
 {
 
-/// The grid with the fewest cells, at least `count`, among those as square as possible.
-glm::ivec2 GridSize(int count)
+/// The grid with the fewest cells, at least `count`, among those whose cells are as square as
+/// possible on a light of that aspect.
+glm::ivec2 GridSize(int count, double aspect)
 {
-  const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(count))));
+  const int columns =
+    static_cast<int>(std::lround(std::clamp(std::sqrt(count * aspect), 1.0, double(count))));
   return { columns, (count + columns - 1) / columns };
 }
 
@@ -52,16 +54,16 @@ std::vector<int> Permutation(int count, RandomStream& random)
 
 } // namespace
 
-std::vector<glm::dvec2> GenerateUniformGrid(int count, std::uint32_t /*seed*/)
+std::vector<glm::dvec2> GenerateUniformGrid(int count, std::uint32_t /*seed*/, double aspect)
 {
-  const glm::ivec2 size = GridSize(count);
+  const glm::ivec2 size = GridSize(count, aspect);
   return PlaceInCells(
     size, [&](int i, int j) { return glm::dvec2((i + 0.5) / size.x, (j + 0.5) / size.y); });
 }
 
-std::vector<glm::dvec2> GenerateJitteredGrid(int count, std::uint32_t seed)
+std::vector<glm::dvec2> GenerateJitteredGrid(int count, std::uint32_t seed, double aspect)
 {
-  const glm::ivec2 size = GridSize(count);
+  const glm::ivec2 size = GridSize(count, aspect);
   RandomStream random(seed);
   return PlaceInCells(size,
     [&](int i, int j)
@@ -72,11 +74,12 @@ std::vector<glm::dvec2> GenerateJitteredGrid(int count, std::uint32_t seed)
     });
 }
 
-std::vector<glm::dvec2> GenerateCorrelatedMultiJittered(int count, std::uint32_t seed)
+std::vector<glm::dvec2> GenerateCorrelatedMultiJittered(
+  int count, std::uint32_t seed, double aspect)
 {
   // Cell (i, j) is split into a column for each j and a row for each i; the same shuffles serve all
   // columns and all rows, which is what "correlated" means.
-  const glm::ivec2 size = GridSize(count);
+  const glm::ivec2 size = GridSize(count, aspect);
   RandomStream random(seed);
   const std::vector<int> column = Permutation(size.y, random);
   const std::vector<int> row = Permutation(size.x, random);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <limits>
 
 namespace penumbra
 {
@@ -101,6 +102,11 @@ PolygonLight PolygonLight::Triangle(
   return PolygonLight({ origin, point1, point2 }, SampleMap::TriangleFan);
 }
 
+PolygonLight PolygonLight::Convex(std::vector<glm::dvec3> vertices)
+{
+  return PolygonLight(std::move(vertices), SampleMap::TriangleFan);
+}
+
 PolygonLight PolygonLight::Transformed(const glm::dmat4& matrix) const
 {
   std::vector<glm::dvec3> vertices;
@@ -158,12 +164,7 @@ glm::dvec3 PolygonLight::Sample(const glm::dvec2& s) const
 double PolygonLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const
 {
   const PolygonLight seen = this->ClippedToFront(x, normal);
-  if (!seen.IsValid())
-  {
-    return 0.0;
-  }
-  const double side = glm::dot(x - this->Vertices[0], this->Normal);
-  if (side == 0.0 || (side < 0.0 && !this->TwoSided))
+  if (!seen.IsValid() || !this->Faces(x))
   {
     return 0.0;
   }
@@ -180,6 +181,70 @@ double PolygonLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) c
     }
   }
   return std::clamp(std::abs(sum) / glm::two_pi<double>(), 0.0, 1.0);
+}
+
+bool PolygonLight::Faces(const glm::dvec3& point) const
+{
+  const double side = glm::dot(point - this->Vertices[0], this->Normal);
+  return side > 0.0 || (side < 0.0 && this->TwoSided);
+}
+
+double PolygonLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+{
+  double highest = 0.0;
+  for (const glm::dvec3& vertex : this->Vertices)
+  {
+    highest = std::max(highest, glm::dot(vertex - point, normal));
+  }
+  return highest;
+}
+
+double PolygonLight::GetSolidAngleBound(const penumbra::Parallelogram& receiver) const
+{
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const glm::dvec3& vertex : this->Vertices)
+  {
+    low = glm::min(low, vertex);
+    high = glm::max(high, vertex);
+  }
+  return BoundSolidAngle(this->Area, low, high, receiver);
+}
+
+double PolygonLight::GetAspect() const
+{
+  return this->Map == SampleMap::Parallelogram && this->IsValid()
+    ? glm::length(this->Vertices[1] - this->Vertices[0]) /
+      glm::length(this->Vertices[3] - this->Vertices[0])
+    : 1.0;
+}
+
+std::vector<LightSample> PolygonLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
+{
+  std::vector<LightSample> samples(pattern.size());
+  for (std::size_t i = 0; i < pattern.size(); ++i)
+  {
+    samples[i].Place = this->Sample(pattern[i]);
+  }
+  return samples;
+}
+
+std::vector<EmittingPolygon> PolygonLight::GetPolygons() const
+{
+  if (this->Vertices.size() > MaximumVertices)
+  {
+    return {};
+  }
+  return { { this, this->Radiance } };
+}
+
+std::vector<double> PolygonLight::GetKey() const
+{
+  std::vector<double> key = this->MakeKey(0);
+  for (const glm::dvec3& v : this->Vertices)
+  {
+    key.insert(key.end(), { v.x, v.y, v.z });
+  }
+  return key;
 }
 
 } // namespace penumbra

@@ -7,11 +7,7 @@
 #ifndef PolygonLight_h
 #define PolygonLight_h
 
-#include "PenumbraRenderingModule.h" // for the export macro
-
-#include "Vectors.h"
-
-#include <vector>
+#include "LightShape.h"
 
 namespace penumbra
 {
@@ -19,9 +15,10 @@ namespace penumbra
 /**
  * A planar convex polygon that emits diffusely, towards the side from which its vertices are seen
  * counter-clockwise, or to both sides. Parallelograms and triangles have maps of their own from the
- * unit square; what is left of them when a plane cuts them is sampled as a fan of triangles.
+ * unit square; what is left of them when a plane cuts them, and any other polygon, is sampled as a
+ * fan of triangles. Radiance is in W sr^-1 m^-2.
  */
-class PENUMBRARENDERING_EXPORT PolygonLight
+class PENUMBRARENDERING_EXPORT PolygonLight : public LightOfKind<PolygonLight>
 {
 public:
   /// Emits towards (point1 - origin) x (point2 - origin).
@@ -31,9 +28,8 @@ public:
   static PolygonLight Triangle(
     const glm::dvec3& origin, const glm::dvec3& point1, const glm::dvec3& point2);
 
-  /// Emitted radiance of the front (or of both sides), W sr^-1 m^-2.
-  glm::dvec3 Radiance{ 1.0 };
-  bool TwoSided = false;
+  /// Any convex polygon; emits to the side from which its vertices are seen counter-clockwise.
+  static PolygonLight Convex(std::vector<glm::dvec3> vertices);
 
   /// The vertices, counter-clockwise seen from the front; fewer than three where nothing is left.
   const std::vector<glm::dvec3>& GetVertices() const { return this->Vertices; }
@@ -41,16 +37,11 @@ public:
   const glm::dvec3& GetNormal() const { return this->Normal; }
   double GetArea() const { return this->Area; }
   /// False for a light with no area (or with coordinates that are not finite): it emits nothing.
-  bool IsValid() const { return this->Area > 0.0; }
+  bool IsValid() const override { return this->Area > 0.0; }
 
-  /// The light after an affine map: `matrix` with the translation in its last column.
   PolygonLight Transformed(const glm::dmat4& matrix) const;
 
-  /**
-   * What is left of the light on the positive side of the plane through `point` with the unit
-   * `normal`: what a receiver in that plane can see (H&H 1997, 3.6). Clipped by Sutherland and
-   * Hodgman 1974.
-   */
+  /// By Sutherland and Hodgman 1974.
   PolygonLight ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const;
 
   /// Maps the unit square onto the light so that equal areas get equal shares of it.
@@ -62,7 +53,18 @@ public:
    * - x (for its derivation: Baum, Rushmeier, Winget 1989, eq. 6). In [0, 1]. The part of the light
    * below the horizon of x is clipped off first. 0 where x is not on a side that emits.
    */
-  double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const;
+  double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
+
+  bool Faces(const glm::dvec3& point) const override;
+  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  double GetMeasure() const override { return this->Area; }
+  double GetSolidAngleBound(const penumbra::Parallelogram& receiver) const override;
+  double GetAspect() const override;
+  std::vector<LightSample> TakeSamples(const std::vector<glm::dvec2>& pattern) const override;
+  Emission GetEmission() const override { return Emission::Area; }
+  glm::dvec3 GetAxis() const override { return this->Normal; }
+  std::vector<EmittingPolygon> GetPolygons() const override;
+  std::vector<double> GetKey() const override;
 
 private:
   enum class SampleMap

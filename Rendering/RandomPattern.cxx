@@ -7,7 +7,7 @@
 namespace penumbra
 {
 
-std::vector<glm::dvec2> GenerateRandom(int count, std::uint32_t seed)
+std::vector<glm::dvec2> GenerateRandom(int count, std::uint32_t seed, double /*aspect*/)
 {
   RandomStream random(seed);
   std::vector<glm::dvec2> points(static_cast<std::size_t>(count));

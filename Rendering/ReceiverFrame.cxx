@@ -27,7 +27,11 @@ ReceiverFrame::ReceiverFrame(const Parallelogram& base, Side side)
 
 glm::dvec3 ReceiverFrame::ToFrame(const glm::dvec3& world) const
 {
-  const glm::dvec3 d = world - this->Base.Corner;
+  return this->DirectionToFrame(world - this->Base.Corner);
+}
+
+glm::dvec3 ReceiverFrame::DirectionToFrame(const glm::dvec3& d) const
+{
   return { glm::dot(this->DualX, d), glm::dot(this->DualY, d),
     glm::dot(this->Normal, d) / this->Size };
 }

@@ -57,6 +57,8 @@ public:
 
   /// World point to (u, v, h).
   glm::dvec3 ToFrame(const glm::dvec3& world) const;
+  /// The same for a direction.
+  glm::dvec3 DirectionToFrame(const glm::dvec3& direction) const;
   /// (u, v, h) to world point.
   glm::dvec3 ToWorld(const glm::dvec3& uvh) const;
 

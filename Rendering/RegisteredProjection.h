@@ -32,6 +32,12 @@ struct RegisteredProjection
     return { { sample.x / sample.z, sample.y / sample.z, 1.0 / sample.z } };
   }
 
+  /// From infinity, towards a direction (du, dv, dh) in the receiver's frame; dh must be positive.
+  static RegisteredProjection FromDirection(const glm::dvec3& direction)
+  {
+    return { { direction.x / direction.z, direction.y / direction.z, 0.0 } };
+  }
+
   /// (u, v, h) to homogeneous (x', y', w').
   glm::dvec3 Project(const glm::dvec3& uvh) const
   {

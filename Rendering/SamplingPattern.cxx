@@ -8,11 +8,11 @@ namespace penumbra
 const std::vector<SamplingPattern>& GetSamplingPatterns()
 {
   static const std::vector<SamplingPattern> patterns{
-    { "Sobol", GenerateSobol },
-    { "Correlated Multi-Jittered", GenerateCorrelatedMultiJittered },
-    { "Jittered Grid", GenerateJitteredGrid },
-    { "Uniform Grid", GenerateUniformGrid },
-    { "Random", GenerateRandom },
+    { "Sobol", true, GenerateSobol },
+    { "Correlated Multi-Jittered", false, GenerateCorrelatedMultiJittered },
+    { "Jittered Grid", false, GenerateJitteredGrid },
+    { "Uniform Grid", false, GenerateUniformGrid },
+    { "Random", true, GenerateRandom },
   };
   return patterns;
 }

@@ -32,26 +32,14 @@ double CountTexels(const Receiver& receiver, const glm::dvec3& edge, double grow
   return std::clamp(std::ceil(length / size), 1.0, MostTexels);
 }
 
-/// What a light sends to the receiver's centre, summed over its components; its area in front where
-/// the centre sees nothing of it.
-glm::dvec2 LightOnSide(const PolygonLight& light, const ReceiverFrame& frame)
+/// What a light sends to the receiver's centre, summed over its components; how much of it is in
+/// front where the centre sees nothing of it.
+glm::dvec2 LightOnSide(const LightShape& light, const ReceiverFrame& frame)
 {
-  const double power = light.Radiance.x + light.Radiance.y + light.Radiance.z;
   const glm::dvec3 centre = frame.ToWorld({ 0.5, 0.5, 0.0 });
-  const PolygonLight seen = light.ClippedToFront(centre, frame.GetNormal());
-  return power * glm::dvec2(light.FormFactor(centre, frame.GetNormal()), seen.GetArea());
-}
-
-/// The light's numbers, to compare lights by.
-std::vector<double> GetKey(const PolygonLight& light)
-{
-  std::vector<double> key{ light.Radiance.x, light.Radiance.y, light.Radiance.z,
-    light.TwoSided ? 1.0 : 0.0 };
-  for (const glm::dvec3& v : light.GetVertices())
-  {
-    key.insert(key.end(), { v.x, v.y, v.z });
-  }
-  return key;
+  const glm::dvec3 arriving = light.Irradiance(centre, frame.GetNormal());
+  const glm::dvec3 power = light.Clip(centre, frame.GetNormal())->GetMeasure() * light.Radiance;
+  return { arriving.x + arriving.y + arriving.z, power.x + power.y + power.z };
 }
 
 } // namespace
@@ -108,8 +96,8 @@ ReceiverFrame ShadowScene::MakeFrame(const Receiver& receiver) const
   glm::dvec2 atFront(0.0), atBack(0.0);
   for (const std::size_t i : this->GetLightOrder())
   {
-    atFront += LightOnSide(this->Lights[i], front);
-    atBack += LightOnSide(this->Lights[i], back);
+    atFront += LightOnSide(*this->Lights[i], front);
+    atBack += LightOnSide(*this->Lights[i], back);
   }
   const bool backWins = atFront.x != atBack.x ? atBack.x > atFront.x : atBack.y > atFront.y;
   return backWins ? back : front;
@@ -121,7 +109,7 @@ std::vector<std::size_t> ShadowScene::GetLightOrder() const
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
   std::sort(order.begin(), order.end(),
     [this](std::size_t a, std::size_t b)
-    { return GetKey(this->Lights[a]) < GetKey(this->Lights[b]); });
+    { return this->Lights[a]->GetKey() < this->Lights[b]->GetKey(); });
   return order;
 }
 

@@ -7,8 +7,8 @@
 #ifndef ShadowScene_h
 #define ShadowScene_h
 
+#include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "PolygonLight.h"
 #include "ReceiverFrame.h"
 #include "ShadowSettings.h"
 
@@ -55,7 +55,7 @@ struct PENUMBRARENDERING_EXPORT ShadowScene
 {
   std::vector<Surface> Surfaces;
   std::vector<Receiver> Receivers;
-  std::vector<PolygonLight> Lights;
+  std::vector<Light> Lights;
 
   /// The largest texture side and the most bytes that a surface's textures may take.
   static constexpr int MaximumTextureSide = 16384;

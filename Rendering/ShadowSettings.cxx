@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShadowSettings.h"
 
+#include "DirectionalLight.h"
+#include "DiskLight.h"
+#include "PointLight.h"
+#include "PolygonLight.h"
 #include "SamplingPattern.h"
+#include "SegmentLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +56,7 @@ std::string ReceiverSettings::FindProblem() const
   {
     return Describe("TexelSize", this->TexelSize, "0 (automatic) or a length > 0");
   }
-  if (this->LightSamples < 1 || this->LightSamples > MaximumLightSamples)
+  if (this->LightSamples < 1 || this->LightSamples > MostLightSamples)
   {
     return Describe("LightSamples", this->LightSamples, "1 to 65536");
   }
@@ -77,6 +82,19 @@ std::string ReceiverSettings::FindProblem() const
   {
     return Describe("AmbientRadiance", this->AmbientRadiance, "0 to 1e30 for each component");
   }
+  if (!(this->SolidAnglePerSample >= 0.0) || !std::isfinite(this->SolidAnglePerSample))
+  {
+    return Describe(
+      "SolidAnglePerSample", this->SolidAnglePerSample, "0 (off) or a solid angle > 0");
+  }
+  if (!(this->ErrorTolerance >= 0.0 && this->ErrorTolerance <= 1.0))
+  {
+    return Describe("ErrorTolerance", this->ErrorTolerance, "0 (off) to 1, a share of the peak");
+  }
+  if (this->MaximumLightSamples < 1 || this->MaximumLightSamples > MostLightSamples)
+  {
+    return Describe("MaximumLightSamples", this->MaximumLightSamples, "1 to 65536");
+  }
   const int side = static_cast<int>(this->Side);
   return side < 0 || side > 2 ? Describe("Side", side, "0 (Auto), 1 (Front) or 2 (Back)") : "";
 }
@@ -84,15 +102,26 @@ std::string ReceiverSettings::FindProblem() const
 int ReceiverSettings::GetSampleCount() const
 {
   const double count = std::round(this->LightSamples * this->SampleMultiplier);
-  return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(MaximumLightSamples)));
+  return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(MostLightSamples)));
+}
+
+int ReceiverSettings::GetSampleCount(double solidAngle) const
+{
+  if (this->SolidAnglePerSample <= 0.0 || solidAngle <= 0.0)
+  {
+    return this->GetSampleCount();
+  }
+  const double count = std::ceil(solidAngle / this->SolidAnglePerSample);
+  return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(this->MaximumLightSamples)));
 }
 
 std::string LightSettings::FindProblem() const
 {
   const int shape = static_cast<int>(this->Shape);
-  if (shape < 0 || shape > 1)
+  if (shape < 0 || shape > static_cast<int>(LightKind::Surface))
   {
-    return Describe("Shape", shape, "0 (Parallelogram) or 1 (Triangle)");
+    return Describe("Shape", shape,
+      "0 (Parallelogram), 1 (Triangle), 2 (Disk), 3 (Segment), 4 (Point) or 5 (Directional)");
   }
   if (!IsFinite(this->Origin))
   {
@@ -110,20 +139,50 @@ std::string LightSettings::FindProblem() const
   {
     return Describe("Radiance", this->Radiance, "0 to 1e30 for each component");
   }
-  const double area = this->MakeLight().GetArea();
-  return area > 0.0 ? ""
-                    : Describe("the area between Origin, Point1 and Point2", area,
-                        "more than 0: the points must not lie on a line");
+  if (!(this->AngularDiameter >= 0.0 && this->AngularDiameter < 180.0))
+  {
+    return Describe("AngularDiameter", this->AngularDiameter, "0 to less than 180 degrees");
+  }
+  if (this->Shape == LightKind::Surface || this->MakeLight()->IsValid())
+  {
+    return "";
+  }
+  if (this->Shape == LightKind::Segment || this->Shape == LightKind::Directional)
+  {
+    return Describe("the distance from Origin to Point1", glm::length(this->Point1 - this->Origin),
+      "more than 0");
+  }
+  return Describe("the area between Origin, Point1 and Point2", this->MakeLight()->GetMeasure(),
+    "more than 0: the points must not lie on a line");
 }
 
-PolygonLight LightSettings::MakeLight() const
+Light LightSettings::MakeLight() const
 {
-  PolygonLight light = this->Shape == LightShape::Triangle
-    ? PolygonLight::Triangle(this->Origin, this->Point1, this->Point2)
-    : PolygonLight::Parallelogram(this->Origin, this->Point1, this->Point2);
-  light.Radiance = this->Radiance;
-  light.TwoSided = this->TwoSided;
+  Light light = this->MakeShape();
+  light->Radiance = this->Radiance;
+  light->TwoSided = this->TwoSided;
   return light;
+}
+
+Light LightSettings::MakeShape() const
+{
+  const glm::dvec3 toPoint1 = this->Point1 - this->Origin;
+  switch (this->Shape)
+  {
+    case LightKind::Triangle:
+      return PolygonLight::Triangle(this->Origin, this->Point1, this->Point2);
+    case LightKind::Disk:
+      return DiskLight(
+        this->Origin, glm::cross(toPoint1, this->Point2 - this->Origin), glm::length(toPoint1));
+    case LightKind::Segment:
+      return SegmentLight(this->Origin, this->Point1);
+    case LightKind::Point:
+      return PointLight(this->Origin);
+    case LightKind::Directional:
+      return DirectionalLight(toPoint1, this->AngularDiameter);
+    default:
+      return PolygonLight::Parallelogram(this->Origin, this->Point1, this->Point2);
+  }
 }
 
 } // namespace penumbra

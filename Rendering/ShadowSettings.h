@@ -7,8 +7,8 @@
 #ifndef ShadowSettings_h
 #define ShadowSettings_h
 
+#include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "PolygonLight.h"
 
 #include <string>
 
@@ -35,39 +35,59 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
   glm::dvec3 AmbientRadiance{ 0.0 };
   ReceiverSide Side = ReceiverSide::Auto;
   int Seed = 0;
+  double SolidAnglePerSample = 0.0;
+  double ErrorTolerance = 0.0;
+  int MaximumLightSamples = 4096;
+  bool Reconstruction = true;
 
   /// The largest number of samples of one light.
-  static constexpr int MaximumLightSamples = 65536;
+  static constexpr int MostLightSamples = 65536;
 
   /// Empty if every value makes sense; otherwise names the first that does not and what is allowed.
   std::string FindProblem() const;
 
-  /// LightSamples x SampleMultiplier, at least 1, at most MaximumLightSamples.
+  /// LightSamples x SampleMultiplier, at least 1, at most MostLightSamples.
   int GetSampleCount() const;
+
+  /**
+   * The samples of a light with the given bound of its solid angle (LightShape): with
+   * SolidAnglePerSample, as many as keep each one's share below it, at most MaximumLightSamples
+   * (H&H 1997, 3.7); else, and for lights without solid angle, GetSampleCount().
+   */
+  int GetSampleCount(double solidAngle) const;
 };
 
-/// The shapes a light can have; the values are those of the property Shape.
-enum class LightShape
+/// The kinds of lights; the values are those of the property Shape.
+enum class LightKind
 {
   Parallelogram = 0,
-  Triangle = 1
+  Triangle = 1,
+  Disk = 2,
+  Segment = 3,
+  Point = 4,
+  Directional = 5,
+  Surface = 6 ///< every polygon of the data emits: vtkAreaLightFromSurface, not a property's value
 };
 
 /// The settings of a light: the properties of vtkAreaLightSource, which documents them.
 struct PENUMBRARENDERING_EXPORT LightSettings
 {
-  LightShape Shape = LightShape::Parallelogram;
+  LightKind Shape = LightKind::Parallelogram;
   glm::dvec3 Origin{ -0.5, -0.5, 0.0 };
   glm::dvec3 Point1{ 0.5, -0.5, 0.0 };
   glm::dvec3 Point2{ -0.5, 0.5, 0.0 };
   glm::dvec3 Radiance{ 1.0 };
   bool TwoSided = false;
+  double AngularDiameter = 0.53; ///< degrees
 
   /// Empty if every value makes sense; otherwise names the first that does not and what is allowed.
   std::string FindProblem() const;
 
-  /// The light itself; the settings must have no problem.
-  PolygonLight MakeLight() const;
+  /// The light itself; the settings must have no problem, and Surface needs data instead.
+  Light MakeLight() const;
+
+private:
+  Light MakeShape() const;
 };
 
 } // namespace penumbra

@@ -54,7 +54,7 @@ std::uint32_t OwenScramble(std::uint32_t x, std::uint32_t seed)
 
 } // namespace
 
-std::vector<glm::dvec2> GenerateSobol(int count, std::uint32_t seed)
+std::vector<glm::dvec2> GenerateSobol(int count, std::uint32_t seed, double /*aspect*/)
 {
   // Any block of a power of two of a (0, 2)-sequence is a net, so both halves are stratified in
   // order.

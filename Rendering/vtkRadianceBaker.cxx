@@ -17,6 +17,7 @@
 #include "vtkVisibilityMask.h"
 
 #include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkRadianceBaker);
 
@@ -27,31 +28,65 @@ namespace
 /// have no projection, and it sends nothing.
 constexpr double SmallestSampleHeight = 1e-12;
 
+/// The first samples of a light whose error is to be found: fewer say little of it.
+constexpr int FirstBatch = 64;
+
 /// The lights as the receiver sees them: what lies in front of it.
-std::vector<penumbra::PolygonLight> ClipLights(
-  const std::vector<penumbra::PolygonLight>& lights, const penumbra::ReceiverFrame& frame)
+std::vector<penumbra::Light> ClipLights(
+  const std::vector<penumbra::Light>& lights, const penumbra::ReceiverFrame& frame)
 {
-  std::vector<penumbra::PolygonLight> seen;
-  for (const penumbra::PolygonLight& light : lights)
+  std::vector<penumbra::Light> seen;
+  for (const penumbra::Light& light : lights)
   {
-    seen.push_back(light.ClippedToFront(frame.GetBase().Corner, frame.GetNormal()));
+    seen.emplace_back(light->Clip(frame.GetBase().Corner, frame.GetNormal()));
   }
   return seen;
 }
 
-/// The height of the highest light vertex, in units of the receiver's size.
+/// The height of the highest light, in units of the receiver's size.
 double MaximumHeight(
-  const std::vector<penumbra::PolygonLight>& lights, const penumbra::ReceiverFrame& frame)
+  const std::vector<penumbra::Light>& lights, const penumbra::ReceiverFrame& frame)
 {
   double highest = 0.0;
-  for (const penumbra::PolygonLight& light : lights)
+  for (const penumbra::Light& light : lights)
   {
-    for (const glm::dvec3& vertex : light.GetVertices())
+    if (light->IsValid())
     {
-      highest = std::max(highest, frame.ToFrame(vertex).z);
+      highest = std::max(
+        highest, light->GetHeight(frame.GetBase().Corner, frame.GetNormal()) / frame.GetSize());
     }
   }
   return highest;
+}
+
+std::vector<penumbra::RegisteredProjection> MakeProjections(
+  const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
+{
+  std::vector<penumbra::RegisteredProjection> projections;
+  for (const penumbra::LightSample& sample : samples)
+  {
+    glm::dvec3 place =
+      sample.IsDirection ? frame.DirectionToFrame(sample.Place) : frame.ToFrame(sample.Place);
+    place.z = std::max(place.z, SmallestSampleHeight);
+    projections.push_back(sample.IsDirection ? penumbra::RegisteredProjection::FromDirection(place)
+                                             : penumbra::RegisteredProjection::FromPoint(place));
+  }
+  return projections;
+}
+
+/// The root mean square of the standard error and the peak of the mean of radiance's components.
+glm::dvec2 FindErrorAndPeak(
+  const vtkRadianceTexture::Texels& texels, const penumbra::ReceiverSettings& settings)
+{
+  double variance = 0.0, peak = 0.0;
+  for (std::size_t i = 0; i < texels.Irradiance.size(); ++i)
+  {
+    const glm::dvec3 radiance =
+      settings.Reflectance * (settings.AmbientRadiance + glm::dvec3(texels.Irradiance[i]));
+    variance += static_cast<double>(texels.Variance[i]);
+    peak = std::max(peak, (radiance.x + radiance.y + radiance.z) / 3.0);
+  }
+  return { std::sqrt(variance / static_cast<double>(texels.Variance.size())), peak };
 }
 
 } // namespace
@@ -62,12 +97,25 @@ struct vtkRadianceBaker::Job
   const penumbra::ShadowScene& Scene;
   const penumbra::Receiver& Receiver;
   penumbra::ReceiverFrame Frame;
-  std::vector<penumbra::PolygonLight> Lights; ///< clipped to the receiver's front
-  std::vector<glm::dvec2> Pattern;
+  std::vector<penumbra::Light> Lights; ///< clipped to the receiver's front
   vtkOpenGLRenderWindow* Window;
   vtkRadianceTexture* Target;
   vtkRadianceTexture::Region Region; ///< in Target, of supersampled texels
   Report Result;
+
+  /// A pattern's points for a light.
+  std::vector<penumbra::LightSample> TakeSamples(std::size_t light, int count) const
+  {
+    const penumbra::ReceiverSettings& settings = this->Receiver.Settings;
+    const penumbra::SamplingPattern& pattern =
+      penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
+    std::vector<glm::dvec2> points = pattern.Generate(
+      count, static_cast<std::uint32_t>(settings.Seed), this->Lights[light]->GetAspect());
+    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
+    points.resize(std::min(
+      points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
+    return this->Lights[light]->TakeSamples(points);
+  }
 };
 
 vtkRadianceBaker::vtkRadianceBaker() = default;
@@ -111,14 +159,7 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowSc
   const penumbra::ReceiverFrame frame = scene.MakeFrame(r);
   const penumbra::ReceiverSettings& settings = r.Settings;
   const vtkRadianceTexture::Region place = texture->GetRegions()[region];
-  std::vector<glm::dvec2> pattern =
-    penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Generate(
-      settings.GetSampleCount(), static_cast<std::uint32_t>(settings.Seed));
-  // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
-  pattern.resize(std::min(
-    pattern.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(window))));
-  Job job{ scene, r, frame, ClipLights(scene.Lights, frame), std::move(pattern), window, texture,
-    place, {} };
+  Job job{ scene, r, frame, ClipLights(scene.Lights, frame), window, texture, place, {} };
   job.Result.Receiver = receiver;
 
   if (settings.Supersampling > 1)
@@ -147,64 +188,162 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   this->Occluders->Build(job.Scene, job.Receiver, job.Frame, MaximumHeight(job.Lights, job.Frame));
   job.Result.Triangles = this->Occluders->GetNumberOfTriangles();
   job.Result.LightSamples.assign(job.Lights.size(), 0);
-  for (const penumbra::PolygonLight& light : job.Lights)
+  for (const penumbra::Light& light : job.Lights)
   {
     job.Result.Effects.push_back(
-      penumbra::PlanEffect(job.Frame, light, this->Occluders->GetNumberOfTriangles() > 0));
+      penumbra::PlanEffect(job.Frame, *light, this->Occluders->GetNumberOfTriangles() > 0));
   }
+  const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
+  const bool hasTolerance = settings.ErrorTolerance > 0.0;
   for (const std::size_t light : job.Scene.GetLightOrder())
   {
-    if (job.Result.Effects[light] != penumbra::Effect::None && !this->BakeLight(job, light))
+    const int count = hasTolerance
+      ? std::min(FirstBatch, settings.MaximumLightSamples)
+      : settings.GetSampleCount(job.Lights[light]->GetSolidAngleBound(job.Receiver.Base));
+    if (job.Result.Effects[light] != penumbra::Effect::None && !this->BakeLight(job, light, count))
     {
       return false;
     }
   }
-  return true;
+  return !hasTolerance || this->RefineLights(job);
 }
 
-bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light)
+vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job) const
 {
-  const penumbra::PolygonLight& seen = job.Lights[light];
+  vtkRadianceResolver::Options options;
+  options.Reflectance = job.Receiver.Settings.Reflectance;
+  options.Reconstruction = job.Receiver.Settings.Reconstruction;
+  return options;
+}
+
+bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
+{
+  const penumbra::LightShape& seen = *job.Lights[light];
+  if (!this->Resolver->Begin(job.Window, job.Frame, seen, job.Region.Size, this->GetOptions(job)))
+  {
+    return false;
+  }
   if (job.Result.Effects[light] == penumbra::Effect::Unoccluded)
   {
-    if (!this->Resolver->Begin(job.Window, job.Frame, job.Receiver.Settings.Reflectance, seen, {}))
-    {
-      return false;
-    }
-    this->Resolver->Resolve(job.Target, job.Region, 0, job.Region.Size.y, nullptr);
+    this->Resolver->ResolveUnblocked(job.Target, job.Region);
     return true;
   }
+  const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
+  job.Result.LightSamples[light] = static_cast<int>(samples.size());
+  return this->Resolver->SetSamples(samples) &&
+    this->DrawMasks(job, samples,
+      [&](int firstRow, int lastRow, int maskFirstRow)
+      {
+        this->Resolver->ResolveMasks(
+          job.Target, job.Region, firstRow, lastRow, this->Masks, maskFirstRow);
+      });
+}
 
-  std::vector<glm::dvec3> samples;
-  std::vector<penumbra::RegisteredProjection> projections;
-  for (const glm::dvec2& s : job.Pattern)
-  {
-    samples.push_back(seen.Sample(s));
-    glm::dvec3 sample = job.Frame.ToFrame(samples.back());
-    sample.z = std::max(sample.z, SmallestSampleHeight);
-    projections.push_back(penumbra::RegisteredProjection::FromPoint(sample));
-  }
+template <typename Use>
+bool vtkRadianceBaker::DrawMasks(
+  Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use)
+{
   const glm::ivec2 size = job.Region.Size;
   const int count = static_cast<int>(samples.size());
+  const int halo = this->Resolver->GetHalo();
   const std::size_t layers =
     static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
     vtkVisibilityMask::SamplesPerLayer;
   const std::size_t bytesPerRow = static_cast<std::size_t>(size.x) * layers * sizeof(std::uint32_t);
-  const int rows = static_cast<int>(
-    std::clamp<std::size_t>(MaximumMaskBytes / bytesPerRow, 1, static_cast<std::size_t>(size.y)));
-  if (!this->Masks->Allocate(job.Window, size.x, rows, count) ||
-    !this->Resolver->Begin(job.Window, job.Frame, job.Receiver.Settings.Reflectance, seen, samples))
+  const int most =
+    static_cast<int>(std::min(MaximumMaskBytes / bytesPerRow, static_cast<std::size_t>(size.y)));
+  const int rows = most == size.y ? most : std::max(most - 2 * halo, 1);
+  const int maskRows = std::min(rows + 2 * halo, size.y);
+  if (!this->Masks->Allocate(job.Window, size.x, maskRows, count))
   {
     return false;
   }
+  const std::vector<penumbra::RegisteredProjection> projections =
+    MakeProjections(samples, job.Frame);
   for (int row = 0; row < size.y; row += rows)
   {
-    this->Masks->Draw(this->Occluders, projections, size, row);
-    this->Resolver->Resolve(job.Target, job.Region, row, std::min(row + rows, size.y), this->Masks);
+    const int maskFirstRow = std::max(row - halo, 0);
+    this->Masks->Draw(this->Occluders, projections, size, maskFirstRow);
+    use(row, std::min(row + rows, size.y), maskFirstRow);
   }
-  job.Result.LightSamples[light] = count;
-  const std::size_t bytes = bytesPerRow * static_cast<std::size_t>(rows) + job.Target->GetBytes();
+  const std::size_t bytes = bytesPerRow * static_cast<std::size_t>(maskRows) +
+    job.Target->GetBytes() + this->Resolver->GetBytes();
   job.Result.PeakBytes = std::max(job.Result.PeakBytes, bytes);
+  return true;
+}
+
+bool vtkRadianceBaker::RefineLights(Job& job)
+{
+  const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
+  const glm::dvec2 first = FindErrorAndPeak(job.Target->Download(job.Region), settings);
+  const double allowed = settings.ErrorTolerance * first.y;
+  const auto soft =
+    std::count(job.Result.Effects.begin(), job.Result.Effects.end(), penumbra::Effect::Soft);
+  if (first.x <= allowed || soft == 0)
+  {
+    return true;
+  }
+  vtkNew<vtkRadianceTexture> scratch;
+  if (!scratch->Allocate(job.Window, { job.Region.Size }))
+  {
+    return false;
+  }
+  // The lights' errors add up as their squares do, and each gets an equal part.
+  const double allowedOfLight = allowed / std::sqrt(static_cast<double>(soft));
+  job.Target->Clear(job.Region);
+  bool isDone = true;
+  for (const std::size_t light : job.Scene.GetLightOrder())
+  {
+    const penumbra::Effect effect = job.Result.Effects[light];
+    isDone = isDone &&
+      (effect == penumbra::Effect::Soft
+          ? this->RefineLight(job, light, allowedOfLight, scratch)
+          : effect == penumbra::Effect::None || this->BakeLight(job, light, 0));
+  }
+  scratch->ReleaseGraphicsResources();
+  return isDone;
+}
+
+bool vtkRadianceBaker::RefineLight(
+  Job& job, std::size_t light, double allowed, vtkRadianceTexture* scratch)
+{
+  const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
+  const bool grows =
+    penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Grows;
+  vtkRadianceResolver::Options options = this->GetOptions(job);
+  options.InBatches = true;
+  if (!this->Resolver->Begin(job.Window, job.Frame, *job.Lights[light], job.Region.Size, options))
+  {
+    return false;
+  }
+  int previous = 0;
+  for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
+       count = std::min(2 * count, settings.MaximumLightSamples))
+  {
+    std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
+    const int total = static_cast<int>(samples.size());
+    if (grows)
+    {
+      samples.erase(samples.begin(), samples.begin() + previous);
+    }
+    if (!this->Resolver->SetSamples(samples, grows ? previous : 0) ||
+      !this->DrawMasks(job, samples,
+        [&](int firstRow, int lastRow, int maskFirstRow)
+        { this->Resolver->CountMasks(this->Masks, maskFirstRow, firstRow, lastRow); }))
+    {
+      return false;
+    }
+    job.Result.LightSamples[light] = total;
+    this->Resolver->ResolveCounts(scratch, scratch->GetRegions().front(), false);
+    const glm::dvec2 error =
+      FindErrorAndPeak(scratch->Download(scratch->GetRegions().front()), settings);
+    if (error.x <= allowed || total >= settings.MaximumLightSamples || total <= previous)
+    {
+      break;
+    }
+    previous = total;
+  }
+  this->Resolver->ResolveCounts(job.Target, job.Region, true);
   return true;
 }
 

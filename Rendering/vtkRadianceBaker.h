@@ -19,12 +19,12 @@
 #include "ShadowScene.h"
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
+#include "vtkRadianceResolver.h" // for its Options
 
 #include <vector> // for reports
 
 class vtkOccluderGeometry;
 class vtkOpenGLRenderWindow;
-class vtkRadianceResolver;
 class vtkRadianceTexture;
 class vtkVisibilityMask;
 
@@ -76,7 +76,14 @@ private:
   Report BakeReceiver(const penumbra::ShadowScene& scene, std::size_t receiver,
     vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture, std::size_t region);
   bool BakeLights(Job& job);
-  bool BakeLight(Job& job, std::size_t light);
+  bool BakeLight(Job& job, std::size_t light, int count);
+  /// ErrorTolerance: more samples for the lights, until they have enough of them.
+  bool RefineLights(Job& job);
+  bool RefineLight(Job& job, std::size_t light, double allowed, vtkRadianceTexture* scratch);
+  /// Draws masks in bands of rows and calls use(firstRow, lastRow, maskFirstRow) for each.
+  template <typename Use>
+  bool DrawMasks(Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use);
+  vtkRadianceResolver::Options GetOptions(const Job& job) const;
 
   vtkNew<vtkOccluderGeometry> Occluders;
   vtkNew<vtkVisibilityMask> Masks;

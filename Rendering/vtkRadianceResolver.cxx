@@ -5,43 +5,28 @@
 #include "vtkRadianceResolver.h"
 
 #include "FullScreenTriangle.h"
+#include "ScopedTexture.h"
+#include "vtkClosedForm.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
-#include "vtkOpenGLState.h"
-#include "vtkPolygonFormFactor.h"
 #include "vtkRadianceResolveFS.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
-#include "vtkTextureUnitManager.h"
-#include "vtkVisibilityMask.h"
+#include "vtkStageTexture.h"
+#include "vtkVisibilityShare.h"
 
-#include <array>
-#include <string>
+#include <algorithm>
 
 vtkStandardNewMacro(vtkRadianceResolver);
 
 namespace
 {
 
-/// As in vtkPolygonFormFactor.glsl: a quadrilateral that a plane cuts has five.
-constexpr std::size_t MaximumLightVertices = 8;
-
-using UniformVectors = std::array<glm::vec3, MaximumLightVertices>;
-
-void SetVectors(vtkShaderProgram* program, const char* name, const UniformVectors& vectors)
-{
-  program->SetUniform3fv(name, static_cast<int>(vectors.size()), &vectors.front().x);
-}
-
-/// The shader with the light's shape put in.
-std::string MakeShader()
-{
-  std::string source = vtkRadianceResolveFS;
-  vtkShaderProgram::Substitute(source, "//Penumbra::LightShape::Dec", vtkPolygonFormFactor);
-  return source;
-}
+/// An eighth of the receiver at a time: what the stages hand on then takes 3 bytes a texel.
+constexpr int Strips = 8;
+constexpr int MostStripRows = 64;
+/// How far vtkRadianceResolveFS.glsl looks across texels.
+constexpr int ReconstructionRadius = 2;
 
 } // namespace
 
@@ -49,112 +34,140 @@ vtkRadianceResolver::vtkRadianceResolver() = default;
 vtkRadianceResolver::~vtkRadianceResolver() = default;
 
 bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const glm::dvec3& reflectance, const penumbra::PolygonLight& seen,
-  const std::vector<glm::dvec3>& samples)
+  const penumbra::LightShape& seen, const glm::ivec2& texels, const Options& options)
 {
   this->Window = window;
-  if (seen.GetVertices().size() > MaximumLightVertices)
-  {
-    vtkErrorMacro("A light has " << seen.GetVertices().size()
-                                 << " vertices; allowed: " << MaximumLightVertices);
-    return false;
-  }
-  this->Program = penumbra::ReadyFullScreenProgram(window, MakeShader().c_str());
+  this->Chosen = options;
+  this->Texels = texels;
+  this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
+  this->Program = penumbra::ReadyFullScreenProgram(window, vtkRadianceResolveFS);
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that resolves visibility masks did not compile.");
+    vtkErrorMacro("The shader that resolves shadows did not compile.");
     return false;
   }
-  this->SetLightUniforms(frame, seen);
-  const glm::vec3 share(reflectance);
-  this->Program->SetUniform3f("reflectance", &share.x);
-  return samples.empty() || this->UploadSamples(frame, samples);
-}
-
-void vtkRadianceResolver::SetLightUniforms(
-  const penumbra::ReceiverFrame& frame, const penumbra::PolygonLight& seen)
-{
-  // Edges and spokes are differences of doubles: differences of floats would have few digits left
-  // for a small light that is far away.
-  const std::vector<glm::dvec3>& v = seen.GetVertices();
-  UniformVectors vertices{}, edges{}, spokes{};
-  for (std::size_t i = 0; i < v.size(); ++i)
+  this->ShareCount = seen.HasOneHue() ? 1 : 3;
+  const int shareRows = options.InBatches ? texels.y : this->StripRows + 2 * this->GetHalo();
+  bool isReady = this->ClosedForm->Begin(window, frame, seen, texels, this->StripRows);
+  for (int i = 0; i < this->ShareCount; ++i)
   {
-    vertices[i] = glm::vec3(frame.ToMetric(v[i]));
-    edges[i] = glm::vec3(frame.DirectionToMetric(v[(i + 1) % v.size()] - v[i]));
-    spokes[i] = glm::vec3(frame.DirectionToMetric(v[i] - v[0]));
+    isReady = isReady && this->Share[i]->Begin(window, frame, seen, texels, shareRows);
   }
-  vtkShaderProgram* program = this->Program;
-  program->SetUniformi("lightVertexCount", static_cast<int>(v.size()));
-  SetVectors(program, "lightVertices", vertices);
-  SetVectors(program, "lightEdges", edges);
-  SetVectors(program, "lightSpokes", spokes);
-  const glm::vec3 normal(glm::normalize(frame.DirectionToMetric(seen.GetNormal())));
-  program->SetUniform3f("lightNormal", &normal.x);
-  program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
-  const glm::vec3 radiance(seen.Radiance);
-  program->SetUniform3f("lightRadiance", &radiance.x);
-
-  const glm::vec3 x(frame.DirectionToMetric(frame.GetBase().EdgeX));
-  const glm::vec3 y(frame.DirectionToMetric(frame.GetBase().EdgeY));
-  const float edgesInPlane[4] = { x.x, x.y, y.x, y.y };
-  program->SetUniform4f("metricEdges", edgesInPlane);
+  return isReady;
 }
 
-bool vtkRadianceResolver::UploadSamples(
-  const penumbra::ReceiverFrame& frame, const std::vector<glm::dvec3>& samples)
+bool vtkRadianceResolver::SetSamples(
+  const std::vector<penumbra::LightSample>& samples, int previousCount)
 {
-  std::vector<glm::vec4> texels;
-  for (const glm::dvec3& sample : samples)
+  bool isReady = true;
+  for (int i = 0; i < this->ShareCount; ++i)
   {
-    texels.emplace_back(glm::vec3(frame.ToMetric(sample)), 1.0f);
+    isReady = isReady && this->Share[i]->SetSamples(samples, i, previousCount);
   }
-  this->SampleBuffer->Upload(texels.data(), texels.size(), vtkOpenGLBufferObject::TextureBuffer);
-  this->Samples->SetContext(this->Window);
-  return this->Samples->CreateTextureBuffer(
-    static_cast<unsigned int>(texels.size()), 4, VTK_FLOAT, this->SampleBuffer);
+  return isReady;
 }
 
-void vtkRadianceResolver::Resolve(vtkRadianceTexture* target,
-  const vtkRadianceTexture::Region& region, int firstRow, int lastRow, vtkVisibilityMask* masks)
+int vtkRadianceResolver::GetHalo() const
 {
+  return this->Chosen.Reconstruction ? ReconstructionRadius : 0;
+}
+
+void vtkRadianceResolver::ResolveUnblocked(
+  vtkRadianceTexture* target, const vtkRadianceTexture::Region& region)
+{
+  for (int row = 0; row < this->Texels.y; row += this->StripRows)
+  {
+    const int end = std::min(row + this->StripRows, this->Texels.y);
+    this->ResolveStrip(target, region, row, end, Shares::None, true);
+  }
+}
+
+void vtkRadianceResolver::ResolveMasks(vtkRadianceTexture* target,
+  const vtkRadianceTexture::Region& region, int firstRow, int lastRow, vtkVisibilityMask* masks,
+  int maskFirstRow)
+{
+  for (int row = firstRow; row < lastRow; row += this->StripRows)
+  {
+    const int end = std::min(row + this->StripRows, lastRow);
+    const int first = std::max(row - this->GetHalo(), 0);
+    const int last = std::min(end + this->GetHalo(), this->Texels.y);
+    for (int i = 0; i < this->ShareCount; ++i)
+    {
+      this->Share[i]->Count(masks, maskFirstRow, first, last, 0);
+    }
+    this->ResolveStrip(target, region, row, end, Shares::Strip, true);
+  }
+}
+
+void vtkRadianceResolver::CountMasks(
+  vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow)
+{
+  for (int i = 0; i < this->ShareCount; ++i)
+  {
+    this->Share[i]->Count(masks, maskFirstRow, firstRow, lastRow, firstRow);
+  }
+}
+
+void vtkRadianceResolver::ResolveCounts(
+  vtkRadianceTexture* target, const vtkRadianceTexture::Region& region, bool add)
+{
+  for (int row = 0; row < this->Texels.y; row += this->StripRows)
+  {
+    const int end = std::min(row + this->StripRows, this->Texels.y);
+    this->ResolveStrip(target, region, row, end, Shares::All, add);
+  }
+}
+
+void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
+  const vtkRadianceTexture::Region& region, int firstRow, int lastRow, Shares shares, bool add)
+{
+  this->ClosedForm->Draw(firstRow, lastRow);
   vtkOpenGLState* state = this->Window->GetState();
-  vtkTextureUnitManager* units = state->GetTextureUnitManager();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
-
-  // Samplers of different kinds must not share a unit, even if the shader uses neither.
-  const int maskUnit = units->Allocate();
-  const int sampleUnit = units->Allocate();
-  state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(maskUnit));
-  glBindTexture(GL_TEXTURE_2D_ARRAY, masks ? masks->GetTexture() : 0);
-  state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(sampleUnit));
-  glBindTexture(GL_TEXTURE_BUFFER, masks ? this->Samples->GetHandle() : 0);
-  program->SetUniformi("masks", maskUnit);
-  program->SetUniformi("samples", sampleUnit);
-
-  const int count = masks ? static_cast<int>(this->Samples->GetWidth()) : 0;
-  program->SetUniformi("sampleCount", count);
-  program->SetUniformi("firstHalfCount", (count + 1) / 2);
+  const penumbra::ScopedTexture closedForm(
+    state, program, "closedForm", GL_TEXTURE_2D, this->ClosedForm->GetTexture()->GetHandle());
+  program->SetUniformi("firstRow", firstRow);
+  program->SetUniformi("hasShares", shares == Shares::None ? 0 : 1);
+  program->SetUniformi(
+    "sharesFirstRow", shares == Shares::Strip ? std::max(firstRow - this->GetHalo(), 0) : 0);
   program->SetUniform2i("regionOrigin", &region.Origin.x);
   program->SetUniform2i("regionSize", &region.Size.x);
-  program->SetUniformi("firstRow", firstRow);
+  const glm::vec3 reflectance(this->Chosen.Reflectance);
+  program->SetUniform3f("reflectance", &reflectance.x);
+  const int count = shares == Shares::None ? 1 : this->ShareCount;
+  program->SetUniformf("varianceFactor", static_cast<float>(count));
+  target->BindAsTarget(region, firstRow, lastRow, add);
+  for (int i = 0; i < count; ++i)
+  {
+    glm::vec3 channels(count > 1 ? 0.0f : 1.0f);
+    channels[i] = 1.0f;
+    program->SetUniform3f("channels", &channels.x);
+    const penumbra::ScopedTexture share(state, program, "shares", GL_TEXTURE_2D,
+      shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle());
+    penumbra::DrawFullScreenTriangle();
+    if (!add && i == 0 && count > 1)
+    {
+      target->BindAsTarget(region, firstRow, lastRow, true);
+    }
+  }
+}
 
-  target->BindAsTarget(region, firstRow, lastRow, true);
-  penumbra::DrawFullScreenTriangle();
-
-  glBindTexture(GL_TEXTURE_BUFFER, 0);
-  state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(maskUnit));
-  glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-  units->Free(sampleUnit);
-  units->Free(maskUnit);
+std::size_t vtkRadianceResolver::GetBytes() const
+{
+  std::size_t bytes = this->ClosedForm->GetTexture()->GetBytes();
+  for (int i = 0; i < this->ShareCount; ++i)
+  {
+    bytes += this->Share[i]->GetBytes();
+  }
+  return bytes;
 }
 
 void vtkRadianceResolver::ReleaseGraphicsResources()
 {
-  if (this->Window)
+  this->ClosedForm->ReleaseGraphicsResources();
+  for (const vtkNew<vtkVisibilityShare>& share : this->Share)
   {
-    this->Samples->ReleaseGraphicsResources(this->Window);
-    this->SampleBuffer->ReleaseGraphicsResources();
+    share->ReleaseGraphicsResources();
   }
   this->Program = nullptr;
 }
@@ -162,5 +175,5 @@ void vtkRadianceResolver::ReleaseGraphicsResources()
 void vtkRadianceResolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Samples: " << this->Samples->GetWidth() << "\n";
+  os << indent << "StripRows: " << this->StripRows << "\n";
 }

@@ -118,13 +118,17 @@ bool vtkRadianceTexture::Allocate(
 
   this->HasVariance = true;
 
-  vtkOpenGLState* state = window->GetState();
+  this->Clear({ glm::ivec2(0), this->Size }); // the gutter around it is cut off
+  return true;
+}
+
+void vtkRadianceTexture::Clear(const Region& region)
+{
+  vtkOpenGLState* state = this->Window->GetState();
   const vtkOpenGLState::ScopedglClearColor savedColor(state);
-  this->BindAsTarget({ glm::ivec2(0), this->Size }, 0, this->Size.y, false);
-  state->vtkglDisable(GL_SCISSOR_TEST);
+  this->BindAsTarget(region, 0, region.Size.y, false);
   state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
-  return true;
 }
 
 void vtkRadianceTexture::BindAsTarget(const Region& region, int firstRow, int lastRow, bool add)

@@ -73,6 +73,11 @@ public:
   void BindAsTarget(const Region& region, int firstRow, int lastRow, bool add);
 
   /**
+   * Make a region black again, with its gutter.
+   */
+  void Clear(const Region& region);
+
+  /**
    * Fill a region from a texture that is `factor` times finer and holds one receiver.
    */
   void Downsample(vtkRadianceTexture* fine, const Region& region, int factor);

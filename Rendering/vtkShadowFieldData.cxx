@@ -26,6 +26,10 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("AmbientRadiance", settings.AmbientRadiance);
   visit("Side", settings.Side);
   visit("Seed", settings.Seed);
+  visit("SolidAnglePerSample", settings.SolidAnglePerSample);
+  visit("ErrorTolerance", settings.ErrorTolerance);
+  visit("MaximumLightSamples", settings.MaximumLightSamples);
+  visit("Reconstruction", settings.Reconstruction);
 }
 
 template <typename Settings, typename Visitor>
@@ -37,6 +41,7 @@ void VisitLight(Settings& settings, Visitor&& visit)
   visit("Point2", settings.Point2);
   visit("Radiance", settings.Radiance);
   visit("TwoSided", settings.TwoSided);
+  visit("AngularDiameter", settings.AngularDiameter);
 }
 
 /// Adds an array for each setting.
@@ -51,7 +56,7 @@ struct Writer
   {
     (*this)(name, static_cast<int>(value));
   }
-  void operator()(const char* name, penumbra::LightShape value)
+  void operator()(const char* name, penumbra::LightKind value)
   {
     (*this)(name, static_cast<int>(value));
   }
@@ -97,9 +102,9 @@ struct Reader
   {
     value = static_cast<penumbra::ReceiverSide>(this->Get(name, 0, 1));
   }
-  void operator()(const char* name, penumbra::LightShape& value)
+  void operator()(const char* name, penumbra::LightKind& value)
   {
-    value = static_cast<penumbra::LightShape>(this->Get(name, 0, 1));
+    value = static_cast<penumbra::LightKind>(this->Get(name, 0, 1));
   }
   void operator()(const char* name, glm::dvec3& value)
   {

@@ -255,7 +255,7 @@ void vtkShadowSceneBuilder::AddLight(
     vtkErrorMacro("Light '" << name << "': " << problem << ". It is left out.");
     return;
   }
-  this->Scene.Lights.push_back(settings.MakeLight().Transformed(ToGlm(matrix)));
+  this->Scene.Lights.emplace_back(settings.MakeLight()->Transform(ToGlm(matrix)));
 }
 
 void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,

@@ -488,8 +488,9 @@ bool LiteralLoop::Bake(const penumbra::ShadowScene& scene, std::size_t receiver,
   bool done = bakery.HardShadow.IsComplete();
   for (std::size_t i = 0; i < scene.Lights.size() && done; ++i)
   {
-    this->Radiance.push_back(scene.Lights[i].Radiance);
-    done = this->BakeLight(bakery, scene.Lights[i], i);
+    this->Radiance.push_back(scene.Lights[i]->Radiance);
+    done =
+      this->BakeLight(bakery, dynamic_cast<const penumbra::PolygonLight&>(*scene.Lights[i]), i);
   }
   state->Pop();
   return done;
@@ -507,8 +508,8 @@ bool LiteralLoop::BakeLight(
   }
   const std::vector<glm::dvec2> pattern =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(receiver.Settings.SamplingPattern)]
-      .Generate(
-        receiver.Settings.GetSampleCount(), static_cast<std::uint32_t>(receiver.Settings.Seed));
+      .Generate(receiver.Settings.GetSampleCount(),
+        static_cast<std::uint32_t>(receiver.Settings.Seed), seen.GetAspect());
   vtkOpenGLState* state = bakery.Window->GetState();
   const Image accumulator(receiver.Texels, state);
   if (!accumulator.IsComplete())

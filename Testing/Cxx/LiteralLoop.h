@@ -14,6 +14,7 @@
 #ifndef LiteralLoop_h
 #define LiteralLoop_h
 
+#include "PolygonLight.h"
 #include "ShadowScene.h"
 
 #include <cstddef>

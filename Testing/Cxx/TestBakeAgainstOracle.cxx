@@ -51,7 +51,7 @@ std::vector<TestScene> GetUnoccludedScenes()
         scene.Lights.push_back(isTriangle
             ? penumbra::PolygonLight::Triangle(p.Origin, p.Point1, p.Point2)
             : penumbra::PolygonLight::Parallelogram(p.Origin, p.Point1, p.Point2));
-        scene.Lights.back().TwoSided = twoSided;
+        scene.Lights.back()->TwoSided = twoSided;
         scenes.push_back(scene);
       }
     }

@@ -46,7 +46,7 @@ std::vector<TestScene> GetScenes()
   triangle.Name = "TriangleLight";
   triangle.Lights = { penumbra::PolygonLight::Triangle(
     { -0.5, 0.8, 2.7 }, { 0.9, 0.4, 3.0 }, { -0.2, -0.7, 2.9 }) };
-  triangle.Lights[0].Radiance = { 0.3, 2.0, 1.0 };
+  triangle.Lights[0]->Radiance = { 0.3, 2.0, 1.0 };
   scenes.push_back(triangle);
 
   // The receiver is lit from behind, and its plane cuts the light.
@@ -56,7 +56,7 @@ std::vector<TestScene> GetScenes()
   cut.Settings.Side = penumbra::ReceiverSide::Back;
   cut.Lights.clear();
   cut.AddLight({ 3.0, -0.7, -0.5 }, { 3.1, 0.8, -0.4 }, { 2.6, -0.6, 2.0 });
-  cut.Lights[0].TwoSided = true;
+  cut.Lights[0]->TwoSided = true;
   scenes.push_back(cut);
 
   for (TestScene& scene : scenes)
@@ -129,12 +129,13 @@ glm::dvec3 GetTossUp(const penumbra::ShadowScene& scene, int i, int j)
   const auto pattern =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(receiver.Settings.SamplingPattern)];
   glm::dvec3 change(0.0);
-  for (const penumbra::PolygonLight& light : scene.Lights)
+  for (const penumbra::Light& anyLight : scene.Lights)
   {
+    const auto& light = dynamic_cast<const penumbra::PolygonLight&>(*anyLight);
     const penumbra::PolygonLight seen = light.ClippedToFront(x, frame.GetNormal());
     double doubtful = 0.0, all = 0.0;
-    for (const glm::dvec2& s : pattern.Generate(
-           receiver.Settings.GetSampleCount(), static_cast<std::uint32_t>(receiver.Settings.Seed)))
+    for (const glm::dvec2& s : pattern.Generate(receiver.Settings.GetSampleCount(),
+           static_cast<std::uint32_t>(receiver.Settings.Seed), seen.GetAspect()))
     {
       const glm::dvec3 sample = seen.Sample(s);
       const double weight = GetWeight(sample, seen, x, frame.GetNormal());

@@ -60,7 +60,7 @@ void TestScene::AddLight(const glm::dvec3& origin, const glm::dvec3& point1,
   const glm::dvec3& point2, const glm::dvec3& radiance)
 {
   this->Lights.push_back(penumbra::PolygonLight::Parallelogram(origin, point1, point2));
-  this->Lights.back().Radiance = radiance;
+  this->Lights.back()->Radiance = radiance;
 }
 
 void TestScene::AddPlate(const glm::dvec3& corner, const glm::dvec3& edge1, const glm::dvec3& edge2)
@@ -121,15 +121,15 @@ glm::dvec3 TestScene::GetExact(int i, int j) const
   const glm::dvec3 x =
     b.Corner + ((i + 0.5) / this->Texels.x) * b.EdgeX + ((j + 0.5) / this->Texels.y) * b.EdgeY;
   std::vector<oracle::Light> lights;
-  for (const penumbra::PolygonLight& light : this->Lights)
+  for (const penumbra::Light& light : this->Lights)
   {
     oracle::Light& entry = lights.emplace_back();
-    for (const glm::dvec3& vertex : light.GetVertices())
+    for (const glm::dvec3& vertex : light->GetPolygons().front().Polygon->GetVertices())
     {
       entry.Vertices.push_back(ToOracle(vertex));
     }
-    entry.TwoSided = light.TwoSided;
-    entry.Radiance = { light.Radiance.x, light.Radiance.y, light.Radiance.z };
+    entry.TwoSided = light->TwoSided;
+    entry.Radiance = { light->Radiance.x, light->Radiance.y, light->Radiance.z };
   }
   const std::array<double, 3> exact =
     oracle::Radiance(ToOracle(x), ToOracle(glm::cross(b.EdgeX, b.EdgeY)), lights, this->Occluders,
@@ -212,7 +212,7 @@ std::vector<TestScene> GetOccludedScenes()
   coloured.AddLight({ -1.5, 0.5, 2.5 }, { -0.5, 0.5, 3.0 }, { -1.5, -0.5, 2.5 }, { 2.0, 0.5, 0.1 });
   coloured.Lights.push_back(
     penumbra::PolygonLight::Triangle({ 0.6, 0.8, 2.8 }, { 1.8, 0.4, 2.2 }, { 0.9, -0.6, 2.6 }));
-  coloured.Lights.back().Radiance = { 0.1, 0.6, 3.0 };
+  coloured.Lights.back()->Radiance = { 0.1, 0.6, 3.0 };
   scenes.push_back(coloured);
   return scenes;
 }

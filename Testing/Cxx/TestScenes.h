@@ -8,6 +8,7 @@
 #define TestScenes_h
 
 #include "ExactRadiance.h"
+#include "PolygonLight.h"
 #include "ShadowScene.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
@@ -27,7 +28,7 @@ struct TestScene
   penumbra::Parallelogram Base{ { -2, -2, 0 }, { 4, 0, 0 }, { 0, 4, 0 } };
   penumbra::ReceiverSettings Settings;
   glm::ivec2 Texels{ 40, 40 };
-  std::vector<penumbra::PolygonLight> Lights;
+  std::vector<penumbra::Light> Lights;
   std::vector<oracle::Triangle> Occluders;
 
   void AddLight(const glm::dvec3& origin, const glm::dvec3& point1, const glm::dvec3& point2,

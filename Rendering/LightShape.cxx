@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LightShape.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+
+namespace penumbra
+{
+
+double BoundSolidAngle(
+  double area, const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver)
+{
+  // Boxes are no further apart than what they hold.
+  glm::dvec3 receiverLow(receiver.Corner), receiverHigh(receiver.Corner);
+  for (const glm::dvec3& edge : { receiver.EdgeX, receiver.EdgeY })
+  {
+    receiverLow += glm::min(edge, glm::dvec3(0.0));
+    receiverHigh += glm::max(edge, glm::dvec3(0.0));
+  }
+  const glm::dvec3 gap =
+    glm::max(glm::max(low - receiverHigh, receiverLow - high), glm::dvec3(0.0));
+  const double squaredDistance = glm::dot(gap, gap);
+  const double most = 4.0 * glm::pi<double>();
+  return area < most * squaredDistance ? area / squaredDistance : most;
+}
+
+} // namespace penumbra

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceLight.h"
+
+#include <algorithm>
+
+namespace penumbra
+{
+namespace
+{
+
+double GetMean(const glm::dvec3& v)
+{
+  return (v.x + v.y + v.z) / 3.0;
+}
+
+/// Fans of at most `most` vertices that make up a convex polygon.
+std::vector<PolygonLight> SplitIntoFans(const PolygonLight& cell, std::size_t most)
+{
+  const std::vector<glm::dvec3>& v = cell.GetVertices();
+  if (v.size() <= most)
+  {
+    return { cell };
+  }
+  std::vector<PolygonLight> fans;
+  for (std::size_t first = 1; first + 1 < v.size(); first += most - 2)
+  {
+    const std::size_t last = std::min(first + most - 2, v.size() - 1);
+    std::vector<glm::dvec3> fan{ v[0] };
+    fan.insert(fan.end(), v.begin() + static_cast<std::ptrdiff_t>(first),
+      v.begin() + static_cast<std::ptrdiff_t>(last + 1));
+    fans.push_back(PolygonLight::Convex(fan));
+    fans.back().Radiance = cell.Radiance;
+    fans.back().TwoSided = cell.TwoSided;
+  }
+  return fans;
+}
+
+} // namespace
+
+SurfaceLight::SurfaceLight(const std::vector<PolygonLight>& cells)
+{
+  double power = 0.0;
+  for (const PolygonLight& cell : cells)
+  {
+    // A plane that cuts a fan adds a vertex.
+    for (const PolygonLight& fan : SplitIntoFans(cell, MaximumVertices - 1))
+    {
+      if (fan.IsValid() && GetMean(fan.Radiance) > 0.0)
+      {
+        power += GetMean(fan.Radiance) * fan.GetArea();
+        this->Cells.push_back(fan);
+        this->PowerEnds.push_back(power);
+      }
+    }
+  }
+  for (double& end : this->PowerEnds)
+  {
+    end /= power;
+  }
+}
+
+template <typename Change>
+SurfaceLight SurfaceLight::WithCells(const Change& change) const
+{
+  std::vector<PolygonLight> cells;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    cells.push_back(change(cell));
+  }
+  SurfaceLight result(cells);
+  result.Radiance = this->Radiance;
+  result.TwoSided = this->TwoSided;
+  return result;
+}
+
+SurfaceLight SurfaceLight::Transformed(const glm::dmat4& matrix) const
+{
+  return this->WithCells([&](const PolygonLight& cell) { return cell.Transformed(matrix); });
+}
+
+SurfaceLight SurfaceLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const
+{
+  return this->WithCells(
+    [&](const PolygonLight& cell) { return cell.ClippedToFront(point, normal); });
+}
+
+bool SurfaceLight::Faces(const glm::dvec3& point) const
+{
+  return std::any_of(this->Cells.begin(), this->Cells.end(),
+    [&](const PolygonLight& cell) { return cell.Faces(point); });
+}
+
+double SurfaceLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+{
+  double highest = 0.0;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    highest = std::max(highest, cell.GetHeight(point, normal));
+  }
+  return highest;
+}
+
+double SurfaceLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const
+{
+  double sum = 0.0;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    sum += GetMean(cell.Radiance) * cell.FormFactor(x, normal);
+  }
+  return sum;
+}
+
+glm::dvec3 SurfaceLight::Irradiance(const glm::dvec3& x, const glm::dvec3& normal) const
+{
+  glm::dvec3 sum(0.0);
+  for (const PolygonLight& cell : this->Cells)
+  {
+    sum += cell.Irradiance(x, normal);
+  }
+  return this->Radiance * sum;
+}
+
+double SurfaceLight::GetMeasure() const
+{
+  double area = 0.0;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    area += cell.GetArea();
+  }
+  return area;
+}
+
+double SurfaceLight::GetSolidAngleBound(const Parallelogram& receiver) const
+{
+  // Samples are spread by power: a dim cell has fewer of them than its area's share, and the sample
+  // that stands for the largest area decides.
+  double largest = 0.0;
+  for (std::size_t i = 0; i < this->Cells.size(); ++i)
+  {
+    const double share = this->PowerEnds[i] - (i > 0 ? this->PowerEnds[i - 1] : 0.0);
+    largest = std::max(largest, this->Cells[i].GetSolidAngleBound(receiver) / share);
+  }
+  return largest;
+}
+
+std::vector<LightSample> SurfaceLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
+{
+  std::vector<LightSample> samples;
+  for (const glm::dvec2& s : pattern)
+  {
+    const auto end = std::upper_bound(this->PowerEnds.begin(), this->PowerEnds.end() - 1, s.x);
+    const auto i = static_cast<std::size_t>(end - this->PowerEnds.begin());
+    const double begin = i > 0 ? this->PowerEnds[i - 1] : 0.0;
+    const double share = *end - begin;
+    const PolygonLight& cell = this->Cells[i];
+    LightSample& sample = samples.emplace_back();
+    sample.Place = cell.Sample({ std::clamp((s.x - begin) / share, 0.0, 1.0), s.y });
+    sample.Normal = cell.GetNormal();
+    sample.Power = this->Radiance * cell.Radiance * cell.GetArea() /
+      (share * static_cast<double>(pattern.size()));
+  }
+  return samples;
+}
+
+bool SurfaceLight::HasOneHue() const
+{
+  constexpr double Rounding = 1e-12;
+  const glm::dvec3 hue = glm::normalize(this->Cells.front().Radiance);
+  return std::all_of(this->Cells.begin(), this->Cells.end(),
+    [&](const PolygonLight& cell) {
+      return glm::length(glm::cross(hue, cell.Radiance)) <= Rounding * glm::length(cell.Radiance);
+    });
+}
+
+std::vector<EmittingPolygon> SurfaceLight::GetPolygons() const
+{
+  std::vector<EmittingPolygon> polygons;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    polygons.push_back({ &cell, this->Radiance * cell.Radiance });
+  }
+  return polygons;
+}
+
+std::vector<double> SurfaceLight::GetKey() const
+{
+  std::vector<double> key = this->MakeKey(5);
+  for (const PolygonLight& cell : this->Cells)
+  {
+    const std::vector<double> cellKey = cell.GetKey();
+    key.insert(key.end(), cellKey.begin(), cellKey.end());
+  }
+  return key;
+}
+
+} // namespace penumbra

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenGLLoader.h"
+
+#include "vtkClosedForm.h"
+
+#include "FullScreenTriangle.h"
+#include "PolygonLight.h"
+#include "ReceiverTexels.h"
+#include "vtkClosedFormFS.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkPolygonFormFactor.h"
+#include "vtkSMPTools.h"
+#include "vtkShaderProgram.h"
+#include "vtkStageTexture.h"
+
+#include <array>
+#include <string>
+
+vtkStandardNewMacro(vtkClosedForm);
+
+namespace
+{
+
+using UniformVectors = std::array<glm::vec3, penumbra::LightShape::MaximumVertices>;
+
+void SetVectors(vtkShaderProgram* program, const char* name, const UniformVectors& vectors)
+{
+  program->SetUniform3fv(name, static_cast<int>(vectors.size()), &vectors.front().x);
+}
+
+void SetPolygonUniforms(vtkShaderProgram* program, const penumbra::ReceiverFrame& frame,
+  const penumbra::EmittingPolygon& emitting)
+{
+  // Edges and spokes are differences of doubles: differences of floats would have few digits left
+  // for a small light that is far away.
+  const std::vector<glm::dvec3>& v = emitting.Polygon->GetVertices();
+  UniformVectors vertices{}, edges{}, spokes{};
+  for (std::size_t i = 0; i < v.size(); ++i)
+  {
+    vertices[i] = glm::vec3(frame.ToMetric(v[i]));
+    edges[i] = glm::vec3(frame.DirectionToMetric(v[(i + 1) % v.size()] - v[i]));
+    spokes[i] = glm::vec3(frame.DirectionToMetric(v[i] - v[0]));
+  }
+  program->SetUniformi("lightVertexCount", static_cast<int>(v.size()));
+  SetVectors(program, "lightVertices", vertices);
+  SetVectors(program, "lightEdges", edges);
+  SetVectors(program, "lightSpokes", spokes);
+  const glm::vec3 normal(glm::normalize(frame.DirectionToMetric(emitting.Polygon->GetNormal())));
+  program->SetUniform3f("lightNormal", &normal.x);
+  program->SetUniformi("lightTwoSided", emitting.Polygon->TwoSided ? 1 : 0);
+  const glm::vec3 radiance(emitting.Radiance);
+  program->SetUniform3f("lightRadiance", &radiance.x);
+}
+
+} // namespace
+
+vtkClosedForm::vtkClosedForm() = default;
+vtkClosedForm::~vtkClosedForm() = default;
+
+bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
+  const penumbra::LightShape& seen, const glm::ivec2& texels, int maximumRows)
+{
+  this->Window = window;
+  this->Frame = frame;
+  this->Seen = &seen;
+  this->Texels = texels;
+  this->Program = nullptr;
+  if (!seen.GetPolygons().empty())
+  {
+    std::string source = penumbra::WithReceiverTexels(vtkClosedFormFS);
+    vtkShaderProgram::Substitute(source, "//Penumbra::FormFactor::Dec", vtkPolygonFormFactor);
+    this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
+    if (!this->Program)
+    {
+      vtkErrorMacro("The shader of unoccluded lights did not compile.");
+      return false;
+    }
+  }
+  return this->Texture->Allocate(window, { texels.x, maximumRows }, 4);
+}
+
+void vtkClosedForm::Draw(int firstRow, int lastRow)
+{
+  if (this->Program)
+  {
+    this->DrawPolygons(firstRow, lastRow);
+  }
+  else
+  {
+    this->Evaluate(firstRow, lastRow);
+  }
+}
+
+void vtkClosedForm::DrawPolygons(int firstRow, int lastRow)
+{
+  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
+  penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow);
+  bool add = false; // the first polygon replaces what is there
+  for (const penumbra::EmittingPolygon& polygon : this->Seen->GetPolygons())
+  {
+    SetPolygonUniforms(program, this->Frame, polygon);
+    this->Texture->BindAsTarget(0, lastRow - firstRow, add);
+    penumbra::DrawFullScreenTriangle();
+    add = true;
+  }
+}
+
+void vtkClosedForm::Evaluate(int firstRow, int lastRow)
+{
+  const auto width = static_cast<std::size_t>(this->Texels.x);
+  std::vector<glm::vec4> values(width * static_cast<std::size_t>(lastRow - firstRow));
+  const glm::dvec3 normal = this->Frame.GetNormal();
+  vtkSMPTools::For(firstRow, lastRow,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType row = begin; row < end; ++row)
+      {
+        for (std::size_t i = 0; i < width; ++i)
+        {
+          const glm::dvec2 uv = (glm::dvec2(i, row) + 0.5) / glm::dvec2(this->Texels);
+          const glm::dvec3 x = this->Frame.ToWorld({ uv, 0.0 });
+          values[static_cast<std::size_t>(row - firstRow) * width + i] =
+            glm::vec4(this->Seen->Irradiance(x, normal), 0.0);
+        }
+      }
+    });
+  this->Texture->Upload(lastRow - firstRow, &values.front().x);
+}
+
+void vtkClosedForm::ReleaseGraphicsResources()
+{
+  this->Texture->ReleaseGraphicsResources();
+  this->Program = nullptr;
+  this->Seen = nullptr;
+}
+
+void vtkClosedForm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Texels: " << this->Texels.x << " x " << this->Texels.y << "\n";
+}

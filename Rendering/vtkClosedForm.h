@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkClosedForm
+ * @brief what a light sends to each texel of a receiver where nothing blocks it
+ *
+ * Irradiance over pi in three components, for some rows of texels at a time. Polygons are evaluated
+ * by OpenGL (vtkPolygonFormFactor.glsl), added up where the light has several; other lights by
+ * penumbra::LightShape::Irradiance(), in double.
+ */
+#ifndef vtkClosedForm_h
+#define vtkClosedForm_h
+
+#include "LightShape.h"
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "vtkNew.h"                  // for vtkNew
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for vtkWeakPointer
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkStageTexture;
+
+class PENUMBRARENDERING_EXPORT vtkClosedForm : public vtkObject
+{
+public:
+  static vtkClosedForm* New();
+  vtkTypeMacro(vtkClosedForm, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Take up a light on a receiver of the given texels. `seen`, the light's part in front of the
+   * receiver, is kept by reference. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
+    const penumbra::LightShape& seen, const glm::ivec2& texels, int maximumRows);
+
+  /**
+   * Evaluate the rows [firstRow, lastRow), at most `maximumRows` of them, into rows from 0 on. The
+   * caller saves and restores vtkOpenGLState around it.
+   */
+  void Draw(int firstRow, int lastRow);
+
+  vtkStageTexture* GetTexture() { return this->Texture; }
+
+  /**
+   * Free the OpenGL resources.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkClosedForm();
+  ~vtkClosedForm() override;
+
+private:
+  vtkClosedForm(const vtkClosedForm&) = delete;
+  void operator=(const vtkClosedForm&) = delete;
+
+  void DrawPolygons(int firstRow, int lastRow);
+  void Evaluate(int firstRow, int lastRow);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkShaderProgram* Program = nullptr; ///< the window's; none for lights that are not polygons
+  penumbra::ReceiverFrame Frame;
+  const penumbra::LightShape* Seen = nullptr;
+  glm::ivec2 Texels{ 1 };
+  vtkNew<vtkStageTexture> Texture;
+};
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenGLLoader.h"
+
+#include "vtkStageTexture.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+vtkStandardNewMacro(vtkStageTexture);
+
+vtkStageTexture::vtkStageTexture()
+{
+  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+}
+
+vtkStageTexture::~vtkStageTexture() = default;
+
+bool vtkStageTexture::Allocate(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, int components)
+{
+  if (this->Window == window && this->Size == size && this->Components == components)
+  {
+    return true;
+  }
+  this->ReleaseGraphicsResources();
+  this->Window = window;
+  while (glGetError() != GL_NO_ERROR)
+  {
+    // Errors of others must not be taken for a refusal.
+  }
+  this->Texture->SetContext(window);
+  if (!this->Texture->Allocate2D(static_cast<unsigned int>(size.x),
+        static_cast<unsigned int>(size.y), components, VTK_FLOAT) ||
+    glGetError() != GL_NO_ERROR)
+  {
+    vtkErrorMacro("OpenGL refused a texture of " << size.x << " x " << size.y
+                                                 << " texels. Use a larger TexelSize.");
+    this->ReleaseGraphicsResources();
+    return false;
+  }
+  this->Size = size;
+  this->Components = components;
+  return true;
+}
+
+void vtkStageTexture::BindAsTarget(int firstRow, int lastRow, bool add)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  this->Framebuffer->SetContext(this->Window);
+  this->Framebuffer->Bind(GL_FRAMEBUFFER);
+  this->Framebuffer->AddColorAttachment(0, this->Texture);
+  this->Framebuffer->ActivateDrawBuffers(1);
+  for (unsigned int capability : { GL_DEPTH_TEST, GL_CULL_FACE })
+  {
+    state->vtkglDisable(capability);
+  }
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->SetEnumState(GL_BLEND, add);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  state->vtkglViewport(0, 0, this->Size.x, this->Size.y);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(0, firstRow, this->Size.x, lastRow - firstRow);
+}
+
+void vtkStageTexture::Upload(int rows, const float* values)
+{
+  constexpr GLenum formats[] = { GL_RED, GL_RG, GL_RGB, GL_RGBA };
+  vtkOpenGLState* state = this->Window->GetState();
+  this->Texture->Activate();
+  state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(
+    GL_TEXTURE_2D, 0, 0, 0, this->Size.x, rows, formats[this->Components - 1], GL_FLOAT, values);
+  this->Texture->Deactivate();
+}
+
+unsigned int vtkStageTexture::GetHandle()
+{
+  return this->Texture->GetHandle();
+}
+
+std::size_t vtkStageTexture::GetBytes() const
+{
+  return static_cast<std::size_t>(this->Size.x) * static_cast<std::size_t>(this->Size.y) *
+    static_cast<std::size_t>(this->Components) * sizeof(float);
+}
+
+void vtkStageTexture::ReleaseGraphicsResources()
+{
+  if (this->Window)
+  {
+    this->Texture->ReleaseGraphicsResources(this->Window);
+    this->Framebuffer->ReleaseGraphicsResources(this->Window);
+  }
+  this->Window = nullptr;
+  this->Size = glm::ivec2(0);
+  this->Components = 0;
+}
+
+void vtkStageTexture::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
+  os << indent << "Components: " << this->Components << "\n";
+}

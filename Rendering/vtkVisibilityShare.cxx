@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenGLLoader.h"
+
+#include "vtkVisibilityShare.h"
+
+#include "FullScreenTriangle.h"
+#include "ReceiverTexels.h"
+#include "ScopedTexture.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkStageTexture.h"
+#include "vtkTextureObject.h"
+#include "vtkVisibilityMask.h"
+#include "vtkVisibilityShareFS.h"
+
+#include <algorithm>
+#include <string>
+
+vtkStandardNewMacro(vtkVisibilityShare);
+
+namespace
+{
+
+/// The largest power of the component, by which it is divided: only ratios count, and floats must
+/// hold them.
+double GetLargestPower(const std::vector<penumbra::LightSample>& samples, int component)
+{
+  double largest = 0.0;
+  for (const penumbra::LightSample& sample : samples)
+  {
+    largest = std::max(largest, sample.Power[component]);
+  }
+  return largest;
+}
+
+} // namespace
+
+vtkVisibilityShare::vtkVisibilityShare() = default;
+vtkVisibilityShare::~vtkVisibilityShare() = default;
+
+bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
+  const penumbra::LightShape& seen, const glm::ivec2& texels, int rows)
+{
+  this->Window = window;
+  this->Frame = frame;
+  this->Texels = texels;
+  this->HasCells = seen.GetEmission() == penumbra::Emission::Cells;
+  std::string source = penumbra::WithReceiverTexels(vtkVisibilityShareFS);
+  vtkShaderProgram::Substitute(source, "//Penumbra::Emission::Dec",
+    "#define EMISSION " + std::to_string(static_cast<int>(seen.GetEmission())));
+  this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
+  if (!this->Program)
+  {
+    vtkErrorMacro("The shader that counts visibility masks did not compile.");
+    return false;
+  }
+  const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
+  this->Program->SetUniform3f("lightAxis", &axis.x);
+  this->Program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
+  return this->Textures[this->Current]->Allocate(window, { texels.x, rows }, 2);
+}
+
+bool vtkVisibilityShare::SetSamples(
+  const std::vector<penumbra::LightSample>& samples, int component, int previousCount)
+{
+  this->SampleCount = static_cast<int>(samples.size());
+  this->PreviousCount = previousCount;
+  std::vector<glm::vec4> places, cells;
+  const double largest = GetLargestPower(samples, component);
+  for (const penumbra::LightSample& sample : samples)
+  {
+    places.push_back(sample.IsDirection
+        ? glm::vec4(
+            glm::vec3(this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()), 0.0f)
+        : glm::vec4(glm::vec3(this->Frame.ToMetric(sample.Place)), 1.0f));
+    const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
+    cells.emplace_back(glm::vec3(normal), largest > 0.0 ? sample.Power[component] / largest : 0.0);
+  }
+  if (!this->UploadBuffer(this->SampleBuffer, this->Samples, places) ||
+    (this->HasCells && !this->UploadBuffer(this->CellBuffer, this->Cells, cells)))
+  {
+    vtkErrorMacro("OpenGL refused a buffer of " << samples.size() << " samples; ask for fewer.");
+    return false;
+  }
+  if (previousCount > 0)
+  {
+    const glm::ivec2 size = this->Textures[this->Current]->GetSize();
+    this->Current = 1 - this->Current;
+    return this->Textures[this->Current]->Allocate(this->Window, size, 2);
+  }
+  return true;
+}
+
+bool vtkVisibilityShare::UploadBuffer(
+  vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values)
+{
+  texture->SetContext(this->Window);
+  return buffer->Upload(values.data(), values.size(), vtkOpenGLBufferObject::TextureBuffer) &&
+    texture->CreateTextureBuffer(static_cast<unsigned int>(values.size()), 4, VTK_FLOAT, buffer);
+}
+
+void vtkVisibilityShare::Count(
+  vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow, int targetRow)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
+  const penumbra::ScopedTexture maskTexture(
+    state, program, "masks", GL_TEXTURE_2D_ARRAY, masks->GetTexture());
+  const penumbra::ScopedTexture sampleTexture(
+    state, program, "samples", GL_TEXTURE_BUFFER, this->Samples->GetHandle());
+  const penumbra::ScopedTexture cellTexture(state, program, "cells", GL_TEXTURE_BUFFER,
+    this->HasCells ? this->Cells->GetHandle() : this->Samples->GetHandle());
+  const penumbra::ScopedTexture previous(state, program, "previous", GL_TEXTURE_2D,
+    this->PreviousCount > 0 ? this->Textures[1 - this->Current]->GetHandle() : 0);
+
+  program->SetUniformi("maskFirstRow", maskFirstRow);
+  program->SetUniformi("sampleCount", this->SampleCount);
+  program->SetUniformi("firstHalfCount", (this->SampleCount + 1) / 2);
+  program->SetUniformi("previousCount", this->PreviousCount);
+  penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow - targetRow);
+  this->GetTexture()->BindAsTarget(targetRow, targetRow + lastRow - firstRow, false);
+  penumbra::DrawFullScreenTriangle();
+}
+
+vtkStageTexture* vtkVisibilityShare::GetTexture()
+{
+  return this->Textures[this->Current];
+}
+
+std::size_t vtkVisibilityShare::GetBytes() const
+{
+  return this->Textures[0]->GetBytes() + this->Textures[1]->GetBytes();
+}
+
+void vtkVisibilityShare::ReleaseGraphicsResources()
+{
+  if (this->Window)
+  {
+    this->Samples->ReleaseGraphicsResources(this->Window);
+    this->SampleBuffer->ReleaseGraphicsResources();
+    this->Cells->ReleaseGraphicsResources(this->Window);
+    this->CellBuffer->ReleaseGraphicsResources();
+  }
+  this->Textures[0]->ReleaseGraphicsResources();
+  this->Textures[1]->ReleaseGraphicsResources();
+  this->Program = nullptr;
+}
+
+void vtkVisibilityShare::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Samples: " << this->SampleCount << "\n";
+  os << indent << "PreviousCount: " << this->PreviousCount << "\n";
+}

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkVisibilityShare
+ * @brief the share of a light that each texel of a receiver sees, counted from masks
+ *
+ * Of one light on one receiver: Begin(), then SetSamples() and Count() for the rows whose masks
+ * have been drawn (vtkVisibilityShareFS.glsl). More samples may follow: what they say is combined
+ * with what the earlier ones said.
+ */
+#ifndef vtkVisibilityShare_h
+#define vtkVisibilityShare_h
+
+#include "LightShape.h"
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "vtkNew.h"                  // for vtkNew
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for vtkWeakPointer
+
+#include <vector> // for samples
+
+class vtkOpenGLBufferObject;
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkStageTexture;
+class vtkTextureObject;
+class vtkVisibilityMask;
+
+class PENUMBRARENDERING_EXPORT vtkVisibilityShare : public vtkObject
+{
+public:
+  static vtkVisibilityShare* New();
+  vtkTypeMacro(vtkVisibilityShare, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Take up a light on a receiver of the given texels: `seen` is its part in front of the receiver.
+   * The textures have `rows` rows; if more samples are to come, all of the receiver's. False, after
+   * vtkErrorMacro, if OpenGL refuses.
+   */
+  bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
+    const penumbra::LightShape& seen, const glm::ivec2& texels, int rows);
+
+  /**
+   * The samples whose masks will come. The first half (the greater, if their number is odd) and the
+   * second must each be spread over the light; if `previousCount` samples were counted before,
+   * those are one half and the new ones the other. Of Emission::Cells, `component` is that of their
+   * power. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool SetSamples(
+    const std::vector<penumbra::LightSample>& samples, int component, int previousCount);
+
+  /**
+   * Count the receiver's rows [firstRow, lastRow) into as many rows of the texture, from
+   * `targetRow` on. The masks' row 0 is the receiver's row `maskFirstRow`. The caller saves and
+   * restores vtkOpenGLState around it.
+   */
+  void Count(vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow, int targetRow);
+
+  /**
+   * In r, the share; in g, half of what the halves differ by.
+   */
+  vtkStageTexture* GetTexture();
+
+  /**
+   * The bytes that the textures take.
+   */
+  std::size_t GetBytes() const;
+
+  /**
+   * Free the OpenGL resources.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkVisibilityShare();
+  ~vtkVisibilityShare() override;
+
+private:
+  vtkVisibilityShare(const vtkVisibilityShare&) = delete;
+  void operator=(const vtkVisibilityShare&) = delete;
+
+  bool UploadBuffer(
+    vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkShaderProgram* Program = nullptr; ///< the window's
+  penumbra::ReceiverFrame Frame;
+  glm::ivec2 Texels{ 1 };
+  bool HasCells = false;
+  int SampleCount = 0;
+  int PreviousCount = 0;
+  vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer;
+  vtkNew<vtkTextureObject> Samples, Cells;
+  /// The one that is counted into, and the answer of earlier samples.
+  vtkNew<vtkStageTexture> Textures[2];
+  int Current = 0; ///< the former
+};
+
+#endif
