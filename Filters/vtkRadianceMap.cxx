@@ -105,7 +105,11 @@ void AddReport(const vtkRadianceBaker::Report& report, vtkStructuredGrid* grid)
   vtkNew<vtkDoubleArray> seconds;
   seconds->SetName("BakeSeconds");
   seconds->InsertNextValue(report.Seconds);
+  vtkNew<vtkStringArray> stoppedBy;
+  stoppedBy->SetName("StoppedBy");
+  stoppedBy->InsertNextValue(report.StoppedBy);
   grid->GetFieldData()->AddArray(samples);
+  grid->GetFieldData()->AddArray(stoppedBy);
   grid->GetFieldData()->AddArray(effects);
   grid->GetFieldData()->AddArray(seconds);
 }

@@ -9,7 +9,7 @@
  * - port 0, Receivers (one or more): vtkShadowReceiver's output; other planar data get its
  * defaults. They block light from each other, too;
  * - port 1, Occluders (any number): surfaces that block light;
- * - port 2, Lights (any number): vtkAreaLightSource's output.
+ * - port 2, Lights (any number): output of vtkAreaLightSource or vtkAreaLightFromSurface.
  *
  * The output has a vtkStructuredGrid for each receiver, in the order of the inputs and of the
  * polygons in each. Its cells are the texels: points (double) at b + i/sx ex + j/sy ey, i fastest,
@@ -22,6 +22,8 @@
  * difference of two halves of the samples; and the field data
  * - LightSamples (int, one tuple a light): samples taken; 0 where none were needed;
  * - Effect (string, one a light): "None", "Unoccluded" or "Soft";
+ * - StoppedBy (string): the property that decided how many samples were taken: "LightSamples",
+ *   "SolidAnglePerSample", "ErrorTolerance" or "MaximumLightSamples";
  * - BakeSeconds (double).
  *
  * The bake needs OpenGL 3.2, on any machine: without a display, a headless window serves. A missing

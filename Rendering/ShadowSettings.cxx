@@ -45,9 +45,6 @@ bool IsIn(const glm::dvec3& v, double low, double high)
     glm::all(glm::lessThanEqual(v, glm::dvec3(high)));
 }
 
-/// The largest radiance: sums over many lights stay finite in single precision.
-constexpr double MaximumRadiance = 1e30;
-
 } // namespace
 
 std::string ReceiverSettings::FindProblem() const
@@ -78,7 +75,7 @@ std::string ReceiverSettings::FindProblem() const
   {
     return Describe("Reflectance", this->Reflectance, "0 to 1 for each component");
   }
-  if (!IsIn(this->AmbientRadiance, 0.0, MaximumRadiance))
+  if (!IsIn(this->AmbientRadiance, 0.0, LightSettings::MaximumRadiance))
   {
     return Describe("AmbientRadiance", this->AmbientRadiance, "0 to 1e30 for each component");
   }

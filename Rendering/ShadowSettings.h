@@ -80,6 +80,9 @@ struct PENUMBRARENDERING_EXPORT LightSettings
   bool TwoSided = false;
   double AngularDiameter = 0.53; ///< degrees
 
+  /// The largest radiance: sums over many lights stay finite in single precision.
+  static constexpr double MaximumRadiance = 1e30;
+
   /// Empty if every value makes sense; otherwise names the first that does not and what is allowed.
   std::string FindProblem() const;
 

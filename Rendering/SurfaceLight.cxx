@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceLight.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 
 namespace penumbra
 {
@@ -37,6 +41,40 @@ std::vector<PolygonLight> SplitIntoFans(const PolygonLight& cell, std::size_t mo
 }
 
 } // namespace
+
+bool IsPlanarAndConvex(const std::vector<glm::dvec3>& vertices)
+{
+  const std::size_t count = vertices.size();
+  glm::dvec3 area(0.0);
+  double extent = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 a = vertices[i] - vertices[0];
+    area += glm::cross(a, vertices[(i + 1) % count] - vertices[0]);
+    extent = std::max(extent, glm::length(a));
+    largest = std::max(largest, glm::length(vertices[i]));
+  }
+  const double rounding = 8.0 * static_cast<double>(FLT_EPSILON) * std::max(largest, extent);
+  if (glm::length(area) <= rounding * extent)
+  {
+    return true;
+  }
+  const glm::dvec3 normal = glm::normalize(area);
+  double turned = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 before = vertices[(i + 1) % count] - vertices[i];
+    const glm::dvec3 after = vertices[(i + 2) % count] - vertices[(i + 1) % count];
+    const double sine = glm::dot(normal, glm::cross(before, after));
+    turned += std::atan2(sine, glm::dot(before, after));
+    if (sine < -rounding * extent ||
+      std::abs(glm::dot(normal, vertices[i] - vertices[0])) > rounding)
+    {
+      return false;
+    }
+  }
+  return turned < 3.0 * glm::pi<double>(); // a star goes round twice
+}
 
 SurfaceLight::SurfaceLight(const std::vector<PolygonLight>& cells)
 {

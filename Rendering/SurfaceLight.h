@@ -12,6 +12,10 @@
 namespace penumbra
 {
 
+/// Whether the vertices, in order, go once around a planar convex polygon, but for the rounding of
+/// single precision. Polygons without area do.
+PENUMBRARENDERING_EXPORT bool IsPlanarAndConvex(const std::vector<glm::dvec3>& vertices);
+
 /**
  * Polygons that each emit with a radiance of their own: a stained-glass window is a grid of
  * coloured cells. Radiance, a factor of theirs, has no unit; the cells' is in W sr^-1 m^-2. They do

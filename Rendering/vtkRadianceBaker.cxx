@@ -195,11 +195,19 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   }
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const bool hasTolerance = settings.ErrorTolerance > 0.0;
+  job.Result.StoppedBy = hasTolerance    ? "ErrorTolerance"
+    : settings.SolidAnglePerSample > 0.0 ? "SolidAnglePerSample"
+                                         : "LightSamples";
   for (const std::size_t light : job.Scene.GetLightOrder())
   {
-    const int count = hasTolerance
-      ? std::min(FirstBatch, settings.MaximumLightSamples)
-      : settings.GetSampleCount(job.Lights[light]->GetSolidAngleBound(job.Receiver.Base));
+    const double solidAngle = job.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
+    const int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
+                                   : settings.GetSampleCount(solidAngle);
+    if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
+      settings.SolidAnglePerSample > 0.0)
+    {
+      job.Result.StoppedBy = "MaximumLightSamples";
+    }
     if (job.Result.Effects[light] != penumbra::Effect::None && !this->BakeLight(job, light, count))
     {
       return false;
@@ -301,6 +309,11 @@ bool vtkRadianceBaker::RefineLights(Job& job)
           : effect == penumbra::Effect::None || this->BakeLight(job, light, 0));
   }
   scratch->ReleaseGraphicsResources();
+  const glm::dvec2 last = FindErrorAndPeak(job.Target->Download(job.Region), settings);
+  if (last.x > settings.ErrorTolerance * last.y)
+  {
+    job.Result.StoppedBy = "MaximumLightSamples";
+  }
   return isDone;
 }
 

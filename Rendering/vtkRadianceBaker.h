@@ -21,6 +21,7 @@
 #include "vtkObject.h"
 #include "vtkRadianceResolver.h" // for its Options
 
+#include <string> // for reports
 #include <vector> // for reports
 
 class vtkOccluderGeometry;
@@ -47,6 +48,9 @@ public:
     std::vector<penumbra::Effect> Effects;
     /// Of each light: the samples that were drawn; 0 where none were needed.
     std::vector<int> LightSamples;
+    /// The property that decided how many samples were taken: "LightSamples",
+    /// "SolidAnglePerSample", "ErrorTolerance" or "MaximumLightSamples".
+    std::string StoppedBy;
     /// Triangles that could block light.
     std::size_t Triangles = 0;
     /// Bytes of masks and textures at their peak: while masks are there, mip levels are not.

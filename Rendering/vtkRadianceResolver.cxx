@@ -127,6 +127,7 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   const penumbra::ScopedTexture closedForm(
     state, program, "closedForm", GL_TEXTURE_2D, this->ClosedForm->GetTexture()->GetHandle());
   program->SetUniformi("firstRow", firstRow);
+  program->SetUniformi("reconstruction", this->Chosen.Reconstruction ? 1 : 0);
   program->SetUniformi("hasShares", shares == Shares::None ? 0 : 1);
   program->SetUniformi(
     "sharesFirstRow", shares == Shares::Strip ? std::max(firstRow - this->GetHalo(), 0) : 0);

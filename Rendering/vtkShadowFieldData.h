@@ -42,6 +42,12 @@ public:
   static std::optional<penumbra::LightSettings> ReadLight(vtkFieldData* fieldData);
   ///@}
 
+  /**
+   * The cell array of the radiance that the cells of a light of many cells emit: double, three
+   * components, W sr^-1 m^-2.
+   */
+  static const char* GetRadianceArrayName() { return "PenumbraRadiance"; }
+
 protected:
   vtkShadowFieldData() = default;
   ~vtkShadowFieldData() override = default;

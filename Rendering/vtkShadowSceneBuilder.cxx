@@ -3,6 +3,7 @@
 #include "vtkShadowSceneBuilder.h"
 
 #include "PlanarRegions.h"
+#include "SurfaceLight.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
@@ -182,6 +183,41 @@ vtkIdType DropInfinitePolygons(const penumbra::Surface& surface, vtkPolyData* po
   return dropped;
 }
 
+std::vector<glm::dvec3> GetVertices(vtkPolyData* data, vtkIdType polygon)
+{
+  vtkNew<vtkIdList> cell;
+  data->GetPolys()->GetCellAtId(polygon, cell);
+  std::vector<glm::dvec3> vertices;
+  for (const vtkIdType id : *cell)
+  {
+    glm::dvec3& vertex = vertices.emplace_back();
+    data->GetPoint(id, &vertex.x);
+  }
+  return vertices;
+}
+
+/// The polygons as the cells of a light, with the radiance that their array gives them.
+penumbra::SurfaceLight MakeSurfaceLight(vtkPolyData* data, const penumbra::LightSettings& settings)
+{
+  vtkDataArray* radiance =
+    data->GetCellData()->GetArray(vtkShadowFieldData::GetRadianceArrayName());
+  const vtkIdType first = data->GetNumberOfVerts() + data->GetNumberOfLines();
+  std::vector<penumbra::PolygonLight> cells;
+  for (vtkIdType i = 0; i < data->GetNumberOfPolys(); ++i)
+  {
+    cells.push_back(penumbra::PolygonLight::Convex(GetVertices(data, i)));
+    cells.back().TwoSided = settings.TwoSided;
+    if (radiance && radiance->GetNumberOfComponents() == 3)
+    {
+      radiance->GetTuple(first + i, &cells.back().Radiance.x);
+    }
+  }
+  penumbra::SurfaceLight light(cells);
+  light.Radiance = settings.Radiance;
+  light.TwoSided = settings.TwoSided;
+  return light;
+}
+
 /// Calls visit() for each leaf that is visible; a block's own visibility overrides its parents'.
 template <typename Visitor>
 void VisitVisibleLeaves(
@@ -227,7 +263,7 @@ void vtkShadowSceneBuilder::AddPolyData(
   {
     if (roles & Role::Light)
     {
-      this->AddLight(*light, matrix, name);
+      this->AddLight(data, *light, matrix, name);
     }
     return;
   }
@@ -246,16 +282,45 @@ void vtkShadowSceneBuilder::AddPolyData(
   }
 }
 
-void vtkShadowSceneBuilder::AddLight(
-  const penumbra::LightSettings& settings, vtkMatrix4x4* matrix, const std::string& name)
+void vtkShadowSceneBuilder::AddLight(vtkPolyData* data, const penumbra::LightSettings& settings,
+  vtkMatrix4x4* matrix, const std::string& name)
 {
-  const std::string problem = settings.FindProblem();
+  const bool isSurface = settings.Shape == penumbra::LightKind::Surface;
+  const std::string problem =
+    isSurface ? FindSurfaceLightProblem(data, settings) : settings.FindProblem();
   if (!problem.empty())
   {
     vtkErrorMacro("Light '" << name << "': " << problem << ". It is left out.");
     return;
   }
-  this->Scene.Lights.emplace_back(settings.MakeLight()->Transform(ToGlm(matrix)));
+  const penumbra::Light light =
+    isSurface ? penumbra::Light(MakeSurfaceLight(data, settings)) : settings.MakeLight();
+  this->Scene.Lights.emplace_back(light->Transform(ToGlm(matrix)));
+}
+
+std::string vtkShadowSceneBuilder::FindSurfaceLightProblem(
+  vtkPolyData* data, const penumbra::LightSettings& settings)
+{
+  std::string problem = settings.FindProblem();
+  for (vtkIdType i = 0; i < data->GetNumberOfPolys() && problem.empty(); ++i)
+  {
+    const std::vector<glm::dvec3> vertices = GetVertices(data, i);
+    if (!std::all_of(vertices.begin(), vertices.end(), IsFinite))
+    {
+      problem = "polygon " + std::to_string(i) +
+        " has a coordinate that is not finite; allowed: finite coordinates";
+    }
+    else if (!penumbra::IsPlanarAndConvex(vertices))
+    {
+      problem = "polygon " + std::to_string(i) +
+        " is not planar and convex; allowed: planar convex polygons (Triangulate makes them)";
+    }
+  }
+  if (problem.empty() && !MakeSurfaceLight(data, settings).IsValid())
+  {
+    problem = "no polygon has an area and a radiance greater than 0; allowed: at least one";
+  }
+  return problem;
 }
 
 void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,

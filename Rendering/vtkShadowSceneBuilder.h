@@ -61,6 +61,13 @@ public:
    */
   static std::string FindReceiverProblem(vtkPolyData* data);
 
+  /**
+   * What makes polygons unfit to be a light of many cells, and what is allowed; empty if they are
+   * fit.
+   */
+  static std::string FindSurfaceLightProblem(
+    vtkPolyData* data, const penumbra::LightSettings& settings);
+
 protected:
   vtkShadowSceneBuilder();
   ~vtkShadowSceneBuilder() override;
@@ -70,8 +77,8 @@ private:
   void operator=(const vtkShadowSceneBuilder&) = delete;
 
   void AddPolyData(vtkPolyData* data, vtkMatrix4x4* matrix, int roles, const std::string& name);
-  void AddLight(
-    const penumbra::LightSettings& settings, vtkMatrix4x4* matrix, const std::string& name);
+  void AddLight(vtkPolyData* data, const penumbra::LightSettings& settings, vtkMatrix4x4* matrix,
+    const std::string& name);
   void AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
     const penumbra::ReceiverSettings* receiver, const std::string& name);
   void AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,

@@ -14,17 +14,64 @@ uniform int firstRow;
 uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on
 uniform int sharesFirstRow;
 uniform int hasShares;        // 0: nothing blocks
+uniform int reconstruction;   // are shares filtered across texels?
 uniform ivec2 regionOrigin;   // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
 uniform vec3 channels;        // 1 for the components that the share is of
 uniform float varianceFactor; // 3 if the components' shares come one by one: their errors may be alike
 uniform vec3 reflectance;     // for the variance alone
 
+// What a texel sees of the light, and half the difference of what the halves of the samples say.
+vec2 seenShare(ivec2 texel)
+{
+  return texelFetch(shares, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
+}
+
+// Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel. Within
+// penumbras, where all texels of a window are partly lit, shares are filtered by the window's best quadratic
+// (Savitzky and Golay 1964, in two dimensions; weights for 5x5 and 3x3), which keeps slope and curvature. A
+// wider window is trusted as far as it agrees with the narrower one to within the standard error that the
+// halves of the samples give: where it does not, there is a crease, and it would be smeared.
+vec2 reconstructShare(ivec2 texel)
+{
+  vec2 one = seenShare(texel);
+  if (one.r <= 0.0 || one.r >= 1.0 || any(lessThan(texel, ivec2(2))) ||
+    any(greaterThanEqual(texel, regionSize - 2)))
+  {
+    return one;
+  }
+  vec2 nine = vec2(0.0);
+  vec2 all = vec2(0.0);
+  vec2 variances = vec2(0.0); // sums over the 3x3 and over the 5x5 window
+  bvec2 isPenumbra = bvec2(true);
+  for (int j = -2; j <= 2; ++j)
+  {
+    for (int i = -2; i <= 2; ++i)
+    {
+      vec2 s = seenShare(texel + ivec2(i, j));
+      bool isPartial = s.r > 0.0 && s.r < 1.0;
+      bool isInner = max(abs(i), abs(j)) < 2;
+      float r2 = float(i * i + j * j);
+      all += (27.0 - 5.0 * r2) / 175.0 * s;
+      nine += isInner ? (5.0 - 3.0 * r2) / 9.0 * s : vec2(0.0);
+      variances += s.g * s.g * vec2(isInner ? 1.0 : 0.0, 1.0);
+      isPenumbra = bvec2((isPenumbra.x && isPartial) || (isPenumbra.x && !isInner), isPenumbra.y && isPartial);
+    }
+  }
+  vec2 errors = max(sqrt(variances / vec2(9.0, 25.0)), 1e-9);
+  float trustNine = isPenumbra.x ? 1.0 - smoothstep(0.5, 2.0, abs(nine.r - one.r) / errors.x) : 0.0;
+  float trustAll = isPenumbra.y ? 1.0 - smoothstep(0.5, 1.5, abs(all.r - nine.r) / errors.y) : 0.0;
+  vec2 share = mix(mix(one, nine, trustNine), all, trustAll);
+  return vec2(clamp(share.r, 0.0, 1.0), share.g);
+}
+
 void main()
 {
   // Around the receiver, its edge's texels are repeated: see vtkRadianceTexture.
   ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
-  vec2 seen = hasShares != 0 ? texelFetch(shares, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg : vec2(1.0, 0.0);
+  vec2 seen = hasShares == 0 ? vec2(1.0, 0.0)
+    : reconstruction != 0    ? reconstructShare(texel)
+                             : seenShare(texel);
   vec3 unblocked = channels * texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
   gl_FragData[0] = vec4(unblocked * seen.r, dot(unblocked, vec3(1.0 / 3.0)));
   float error = dot(unblocked * reflectance, vec3(1.0 / 3.0)) * seen.g;

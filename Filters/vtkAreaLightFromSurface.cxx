@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkAreaLightFromSurface.h"
+
+#include "ShadowSettings.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkShadowFieldData.h"
+#include "vtkShadowSceneBuilder.h"
+#include "vtkTriangleFilter.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkAreaLightFromSurface);
+
+namespace
+{
+
+/// The input's polygons with their cell data, and its strips as triangles.
+vtkSmartPointer<vtkPolyData> MakePolygons(vtkPolyData* input)
+{
+  vtkNew<vtkPolyData> surfaces;
+  surfaces->ShallowCopy(input);
+  if (input->GetNumberOfStrips() > 0)
+  {
+    vtkNew<vtkTriangleFilter> triangulate;
+    triangulate->SetInputData(input);
+    triangulate->PassVertsOff();
+    triangulate->PassLinesOff();
+    triangulate->Update();
+    surfaces->ShallowCopy(triangulate->GetOutput());
+  }
+  // Cell data come in the order vertices, lines, polygons.
+  const vtkIdType first = surfaces->GetNumberOfVerts() + surfaces->GetNumberOfLines();
+  auto polygons = vtkSmartPointer<vtkPolyData>::New();
+  polygons->SetPoints(surfaces->GetPoints());
+  polygons->SetPolys(surfaces->GetPolys());
+  polygons->GetCellData()->CopyAllocate(surfaces->GetCellData(), surfaces->GetNumberOfPolys());
+  for (vtkIdType i = 0; i < surfaces->GetNumberOfPolys(); ++i)
+  {
+    polygons->GetCellData()->CopyData(surfaces->GetCellData(), first + i, i);
+  }
+  return polygons;
+}
+
+std::string FindArrayProblem(vtkDataArray* array, const std::string& name)
+{
+  if (!array)
+  {
+    return "RadianceArray is '" + name +
+      "'; allowed: the name of a numeric cell array of the input";
+  }
+  const int components = array->GetNumberOfComponents();
+  if (components != 1 && components != 3)
+  {
+    return "RadianceArray '" + name + "' has " + std::to_string(components) +
+      " components; allowed: 1 or 3";
+  }
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < components; ++c)
+    {
+      const double value = array->GetComponent(i, c);
+      if (!(value >= 0.0 && value <= penumbra::LightSettings::MaximumRadiance))
+      {
+        std::ostringstream text;
+        text << "RadianceArray '" << name << "' is " << value << " at cell " << i
+             << "; allowed: 0 to 1e30";
+        return text.str();
+      }
+    }
+  }
+  return "";
+}
+
+} // namespace
+
+vtkAreaLightFromSurface::vtkAreaLightFromSurface() = default;
+vtkAreaLightFromSurface::~vtkAreaLightFromSurface() = default;
+
+int vtkAreaLightFromSurface::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  penumbra::LightSettings settings;
+  settings.Shape = penumbra::LightKind::Surface;
+  settings.Radiance = glm::make_vec3(this->Radiance);
+  settings.TwoSided = this->TwoSided;
+  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  const bool hasArray = !this->RadianceArray.empty() && this->RadianceArray != "None";
+  std::string problem = settings.FindProblem();
+  if (problem.empty() && hasArray)
+  {
+    problem = FindArrayProblem(
+      input->GetCellData()->GetArray(this->RadianceArray.c_str()), this->RadianceArray);
+  }
+  vtkSmartPointer<vtkPolyData> polygons;
+  if (problem.empty())
+  {
+    polygons = MakePolygons(input);
+    vtkDataArray* array =
+      hasArray ? polygons->GetCellData()->GetArray(this->RadianceArray.c_str()) : nullptr;
+    vtkNew<vtkDoubleArray> radiance;
+    radiance->SetName(vtkShadowFieldData::GetRadianceArrayName());
+    radiance->SetNumberOfComponents(3);
+    for (vtkIdType i = 0; i < polygons->GetNumberOfPolys(); ++i)
+    {
+      const int last = array ? array->GetNumberOfComponents() - 1 : 0;
+      const auto get = [&](int c)
+      { return array ? array->GetComponent(i, std::min(c, last)) : 1.0; };
+      radiance->InsertNextTuple3(get(0), get(1), get(2));
+    }
+    polygons->GetCellData()->AddArray(radiance);
+    problem = vtkShadowSceneBuilder::FindSurfaceLightProblem(polygons, settings);
+  }
+  if (!problem.empty())
+  {
+    vtkErrorMacro("AreaLightFromSurface: " << problem << ".");
+    return 1; // with an empty output; the executive's own error would only repeat it
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->ShallowCopy(polygons);
+  vtkShadowFieldData::Write(settings, output->GetFieldData());
+  return 1;
+}
+
+void vtkAreaLightFromSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RadianceArray: " << this->RadianceArray << "\n";
+  os << indent << "Radiance: (" << this->Radiance[0] << ", " << this->Radiance[1] << ", "
+     << this->Radiance[2] << ")\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
+}
