@@ -34,14 +34,15 @@ int vtkShadowReceiver::RequestData(
   settings.AmbientRadiance = glm::make_vec3(this->AmbientRadiance);
   settings.Side = static_cast<penumbra::ReceiverSide>(this->Side);
   settings.Seed = this->Seed;
-  std::string problem = settings.FindProblem();
+  std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
   if (problem.empty())
   {
-    problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
+    problem = settings.FindProblem();
   }
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
+    vtkShadowFieldData::WriteRefusal(problem, output->GetFieldData());
     return 1; // the input goes on, to be drawn plain
   }
   vtkShadowFieldData::Write(settings, output->GetFieldData());
