@@ -6,7 +6,8 @@
 
 // Adds what one light sends to each texel: the closed form times the share of the samples that is seen,
 // weighted by what each would contribute (Heitz, Hill and McGuire 2018), and the variance of that share.
-// Output 0: irradiance / pi in rgb, and in a the mean of its components if nothing were blocked.
+// Output 0: irradiance / pi in rgb, and in a what is blocked, in the mean of the components: 0, to
+// the bit, where nothing is.
 // Output 1: in r, the variance of the mean of rgb once they are reflected.
 
 //Penumbra::LightShape::Dec
@@ -105,7 +106,7 @@ void main()
   float form = side > 0.0 || (side < 0.0 && lightTwoSided != 0) ? formFactor(x) : 0.0;
   vec2 seen = form > 0.0 ? seenShare(texel, x) : vec2(0.0);
   float mean = dot(lightRadiance, vec3(1.0 / 3.0)) * form;
-  gl_FragData[0] = vec4(lightRadiance * (form * seen.x), mean);
+  gl_FragData[0] = vec4(lightRadiance * (form * seen.x), mean * (1.0 - seen.x));
   float reflected = dot(lightRadiance * reflectance, vec3(1.0 / 3.0)) * form;
   gl_FragData[1] = vec4(reflected * reflected * seen.y, 0.0, 0.0, 0.0);
 }
