@@ -44,8 +44,7 @@ def main(script_path, output_path):
     writer.SetInputData(bunny)
     writer.SetFileName(output_path)
     writer.SetIdTypeToInt32()
-    writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
+    writer.SetDataModeToBinary()  # well-formed XML, unlike appended data: Data/README.md
     writer.SetCompressorTypeToZLib()
     writer.SetCompressionLevel(9)
     if not writer.Write():

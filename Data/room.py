@@ -25,6 +25,15 @@ COLOURS = {
     "Pedestal": [0.75, 0.55, 0.45]}
 
 
+def read_bunny():
+    path = Path(__file__).resolve().parent / "bunny.vtp"
+    bunny = pv.XMLPolyDataReader(registrationName="Bunny", FileName=[str(path)])
+    bunny.UpdatePipeline()
+    if bunny.GetDataInformation().GetNumberOfCells() == 0:  # ParaView says why, and goes on
+        raise RuntimeError(f"{path} cannot be read")
+    return bunny
+
+
 def build(samples=256, texel_size=24 / 512):
     """Makes the sources and filters: receivers (by name), occluders and lights.
 
@@ -35,8 +44,7 @@ def build(samples=256, texel_size=24 / 512):
         receivers[name] = pv.ShadowReceiver(
             registrationName=name, Input=plane, LightSamples=samples, TexelSize=texel_size,
             AmbientRadiance=AMBIENT)
-    bunny = pv.XMLPolyDataReader(
-        registrationName="Bunny", FileName=[str(Path(__file__).resolve().parent / "bunny.vtp")])
+    bunny = read_bunny()
     normals = getattr(pv, "SurfaceNormals", None) or pv.GenerateSurfaceNormals  # renamed by ParaView 5.13
     smooth = normals(registrationName="Smooth bunny", Input=bunny)
     box = pv.Box(registrationName="Box", XLength=12, YLength=9, ZLength=1.0, Center=[0, 0, 0.5])

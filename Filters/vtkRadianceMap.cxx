@@ -80,9 +80,9 @@ void AddCells(const penumbra::Receiver& receiver, const vtkRadianceTexture::Texe
     const glm::vec4& arriving = texels.Irradiance[static_cast<std::size_t>(i)];
     const glm::vec3 reflected = reflectance * (ambient + glm::vec3(arriving));
     radiance->SetTypedTuple(i, &reflected.x);
-    const float share =
-      arriving.a > 0.0f ? glm::dot(glm::vec3(arriving), third) / arriving.a : 1.0f;
-    visibility->SetValue(i, std::min(share, 1.0f)); // sums over lights round
+    const float seen = glm::dot(glm::vec3(arriving), third);
+    const float blocked = arriving.a;
+    visibility->SetValue(i, blocked > 0.0f ? seen / (seen + blocked) : 1.0f);
     const float variance = texels.Variance[static_cast<std::size_t>(i)];
     error->SetValue(i, std::sqrt(variance));
   }

@@ -38,14 +38,15 @@ int vtkShadowReceiver::RequestData(
   settings.ErrorTolerance = this->ErrorTolerance;
   settings.MaximumLightSamples = this->MaximumLightSamples;
   settings.Reconstruction = this->Reconstruction;
-  std::string problem = settings.FindProblem();
+  std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
   if (problem.empty())
   {
-    problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
+    problem = settings.FindProblem();
   }
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
+    vtkShadowFieldData::WriteRefusal(problem, output->GetFieldData());
     return 1; // the input goes on, to be drawn plain
   }
   vtkShadowFieldData::Write(settings, output->GetFieldData());

@@ -11,7 +11,8 @@
  * of it; anything else lies in the smallest rectangle around it.
  *
  * A surface that is curved, or has no polygon with an area, is an error and passes without
- * settings: it will be drawn plain. So is a property out of its range.
+ * settings, but with the error as field data: it will be drawn plain, not baked, and nobody reports
+ * it again. So is a property out of its range.
  *
  * @sa vtkAreaLightSource, vtkRadianceMap, vtkSoftShadowPass
  */

@@ -268,7 +268,7 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   {
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
     {
-      result.Problem = "a point has a coordinate that is not finite; allowed: finite coordinates";
+      result.Problem = NotFiniteProblem;
       return result;
     }
   }

@@ -33,6 +33,10 @@ struct PlanarRegion
   Parallelogram Base;
 };
 
+/// The problem of a mesh with a coordinate that is not finite.
+constexpr const char* NotFiniteProblem =
+  "a point has a coordinate that is not finite (nan or inf); allowed: finite coordinates";
+
 /// What FindPlanarRegions() answers.
 struct PlanarRegions
 {

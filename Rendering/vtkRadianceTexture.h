@@ -5,8 +5,8 @@
  * @brief the radiance of the receivers of one surface, as a texture
  *
  * An atlas: each receiver has a region of texels. Per texel it holds, in single precision, the
- * irradiance over pi from all lights (three components), the mean of its components if nothing were
- * blocked, and the variance of the mean of the three once they are reflected: 20 bytes.
+ * irradiance over pi from all lights (three components), what is blocked of it (in the mean of the
+ * components), and the variance of the mean of the three once they are reflected: 20 bytes.
  *
  * Around each region of an atlas of several, GutterTexels repeat its border, so that mip levels up
  * to log2(GutterTexels) never mix two receivers; a texture with one receiver has no gutter and all
@@ -44,7 +44,7 @@ public:
   /// What Download() gives of a region, i (along EdgeX) fastest.
   struct Texels
   {
-    std::vector<glm::vec4> Irradiance; ///< over pi; a: the mean if nothing were blocked
+    std::vector<glm::vec4> Irradiance; ///< over pi; a: what is blocked, in the mean
     std::vector<float> Variance;
   };
 

@@ -7,6 +7,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
 
 vtkStandardNewMacro(vtkShadowFieldData);
 
@@ -43,6 +44,9 @@ void VisitLight(Settings& settings, Visitor&& visit)
   visit("TwoSided", settings.TwoSided);
   visit("AngularDiameter", settings.AngularDiameter);
 }
+
+/// Of data that were refused as a receiver, why.
+constexpr const char* RefusalArray = "ShadowReceiverProblem";
 
 /// Adds an array for each setting.
 struct Writer
@@ -116,12 +120,30 @@ struct Reader
 
 void vtkShadowFieldData::Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData)
 {
+  fieldData->RemoveArray(RefusalArray);
   VisitReceiver(settings, Writer{ fieldData });
 }
 
 void vtkShadowFieldData::Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData)
 {
   VisitLight(settings, Writer{ fieldData });
+}
+
+void vtkShadowFieldData::WriteRefusal(const std::string& reason, vtkFieldData* fieldData)
+{
+  const penumbra::ReceiverSettings settings;
+  VisitReceiver(settings, [&](const char* name, const auto&) { fieldData->RemoveArray(name); });
+  vtkNew<vtkStringArray> array;
+  array->SetName(RefusalArray);
+  array->InsertNextValue(reason);
+  fieldData->AddArray(array);
+}
+
+std::string vtkShadowFieldData::ReadRefusal(vtkFieldData* fieldData)
+{
+  auto* array =
+    fieldData ? vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(RefusalArray)) : nullptr;
+  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : std::string();
 }
 
 std::optional<penumbra::ReceiverSettings> vtkShadowFieldData::ReadReceiver(vtkFieldData* fieldData)

@@ -6,7 +6,7 @@
  *
  * Lights and receivers carry their settings as field data, so that they travel with the data
  * through filters, to a server and into files. Each property of vtkAreaLightSource or
- * vtkShadowReceiver is an array of its own name.
+ * vtkShadowReceiver is an array of its own name. So is what vtkShadowReceiver has refused.
  */
 #ifndef vtkShadowFieldData_h
 #define vtkShadowFieldData_h
@@ -16,6 +16,7 @@
 #include "vtkObject.h"
 
 #include <optional> // for return values
+#include <string>   // for reasons
 
 class vtkFieldData;
 
@@ -31,6 +32,16 @@ public:
    */
   static void Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData);
   static void Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData);
+  ///@}
+
+  ///@{
+  /**
+   * Write and read why data that were meant to be a receiver are none, which has been reported:
+   * they are never taken for one, and nobody need report it again. They lose their settings.
+   * Without an entry, the reason is empty.
+   */
+  static void WriteRefusal(const std::string& reason, vtkFieldData* fieldData);
+  static std::string ReadRefusal(vtkFieldData* fieldData);
   ///@}
 
   ///@{

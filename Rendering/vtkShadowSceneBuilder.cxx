@@ -27,6 +27,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <sstream>
 
 vtkStandardNewMacro(vtkShadowSceneBuilder);
 
@@ -267,18 +268,19 @@ void vtkShadowSceneBuilder::AddPolyData(
     }
     return;
   }
+  const std::string refusal = vtkShadowFieldData::ReadRefusal(data->GetFieldData());
   std::optional<penumbra::ReceiverSettings> settings;
-  if (roles & (Role::Receiver | Role::DefaultReceiver))
+  if (refusal.empty() && (roles & (Role::Receiver | Role::DefaultReceiver)))
   {
     settings = vtkShadowFieldData::ReadReceiver(data->GetFieldData());
   }
-  if (!settings && (roles & Role::DefaultReceiver))
+  if (refusal.empty() && !settings && (roles & Role::DefaultReceiver))
   {
     settings.emplace();
   }
   if (settings || (roles & Role::Occluder))
   {
-    this->AddSurface(data, matrix, settings ? &*settings : nullptr, name);
+    this->AddSurface(data, matrix, settings ? &*settings : nullptr, name, refusal);
   }
 }
 
@@ -290,7 +292,7 @@ void vtkShadowSceneBuilder::AddLight(vtkPolyData* data, const penumbra::LightSet
     isSurface ? FindSurfaceLightProblem(data, settings) : settings.FindProblem();
   if (!problem.empty())
   {
-    vtkErrorMacro("Light '" << name << "': " << problem << ". It is left out.");
+    this->ReportError("Light '" + name + "': " + problem + ". It is left out.");
     return;
   }
   const penumbra::Light light =
@@ -324,7 +326,7 @@ std::string vtkShadowSceneBuilder::FindSurfaceLightProblem(
 }
 
 void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
-  const penumbra::ReceiverSettings* receiver, const std::string& name)
+  const penumbra::ReceiverSettings* receiver, const std::string& name, std::string problem)
 {
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
   if (polygons->GetNumberOfPolys() == 0 && !receiver)
@@ -335,19 +337,20 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   TransformPoints(polygons, ToGlm(matrix), surface);
   if (receiver)
   {
-    this->AddReceivers(polygons, *receiver, surface, name);
+    problem = this->AddReceivers(polygons, *receiver, surface, name);
   }
-  if (const vtkIdType dropped = DropInfinitePolygons(surface, polygons))
+  const vtkIdType dropped = DropInfinitePolygons(surface, polygons);
+  if (dropped > 0 && problem != penumbra::NotFiniteProblem)
   {
-    vtkErrorMacro("Surface '" << name << "': " << dropped
-                              << " polygons have a coordinate that is not finite; allowed: finite "
-                                 "coordinates. They are left out.");
+    this->ReportError("Surface '" + name + "': " + std::to_string(dropped) +
+      " polygons have a coordinate that is not finite; allowed: finite coordinates. They are left "
+      "out.");
   }
   Triangulate(polygons, surface);
   this->Scene.Surfaces.push_back(std::move(surface));
 }
 
-void vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
+std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   const penumbra::ReceiverSettings& settings, const penumbra::Surface& surface,
   const std::string& name)
 {
@@ -360,8 +363,8 @@ void vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   }
   if (!problem.empty())
   {
-    vtkErrorMacro("Receiver '" << name << "': " << problem << ". It is drawn without shadows.");
-    return;
+    this->ReportError("Receiver '" + name + "': " + problem + ". It is drawn without shadows.");
+    return problem;
   }
 
   const std::size_t first = this->Scene.Receivers.size();
@@ -377,10 +380,11 @@ void vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   const double growth = this->Scene.ChooseTexels(first);
   if (growth > 1.0)
   {
-    vtkWarningMacro("Receiver '" << name << "': TexelSize is too small; its textures would pass "
-                                 << penumbra::ShadowScene::MaximumTextureSide
-                                 << " texels a side or 256 MiB. Texels " << growth
-                                 << " times as large are used.");
+    std::ostringstream text;
+    text << "Receiver '" << name << "': TexelSize is too small; its textures would pass "
+         << penumbra::ShadowScene::MaximumTextureSide << " texels a side or 256 MiB. Texels "
+         << growth << " times as large are used.";
+    this->ReportWarning(text.str());
   }
 
   vtkNew<vtkIntArray> regions;
@@ -390,6 +394,28 @@ void vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
     regions->InsertNextValue(region);
   }
   polygons->GetCellData()->AddArray(regions);
+  return "";
+}
+
+void vtkShadowSceneBuilder::ReportError(const std::string& message)
+{
+  if (this->IsNew(message))
+  {
+    vtkErrorMacro(<< message);
+  }
+}
+
+void vtkShadowSceneBuilder::ReportWarning(const std::string& message)
+{
+  if (this->IsNew(message))
+  {
+    vtkWarningMacro(<< message);
+  }
+}
+
+bool vtkShadowSceneBuilder::IsNew(const std::string& message)
+{
+  return this->Messages.insert(message).second && this->EarlierMessages.count(message) == 0;
 }
 
 std::string vtkShadowSceneBuilder::FindReceiverProblem(vtkPolyData* data)
@@ -406,4 +432,5 @@ void vtkShadowSceneBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Surfaces: " << this->Scene.Surfaces.size() << "\n";
   os << indent << "Receivers: " << this->Scene.Receivers.size() << "\n";
   os << indent << "Lights: " << this->Scene.Lights.size() << "\n";
+  os << indent << "Messages: " << this->Messages.size() << "\n";
 }

@@ -20,6 +20,7 @@
 #include "ShadowScene.h"
 #include "vtkObject.h"
 
+#include <set>    // for messages
 #include <string> // for names
 
 class vtkCompositeDataDisplayAttributes;
@@ -51,6 +52,18 @@ public:
   void AddData(vtkDataObject* data, vtkMatrix4x4* matrix, int roles, const std::string& name,
     vtkCompositeDataDisplayAttributes* attributes = nullptr);
 
+  ///@{
+  /**
+   * The errors and warnings so far, and those that are not to be printed again: of an earlier
+   * scene, much of which is the same.
+   */
+  const std::set<std::string>& GetMessages() const { return this->Messages; }
+  void SetEarlierMessages(const std::set<std::string>& messages)
+  {
+    this->EarlierMessages = messages;
+  }
+  ///@}
+
   /**
    * The scene so far.
    */
@@ -79,12 +92,19 @@ private:
   void AddPolyData(vtkPolyData* data, vtkMatrix4x4* matrix, int roles, const std::string& name);
   void AddLight(vtkPolyData* data, const penumbra::LightSettings& settings, vtkMatrix4x4* matrix,
     const std::string& name);
+  /// `problem` is what has been reported of the data.
   void AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
-    const penumbra::ReceiverSettings* receiver, const std::string& name);
-  void AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,
+    const penumbra::ReceiverSettings* receiver, const std::string& name, std::string problem);
+  /// The answer is empty or the problem that was reported.
+  std::string AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,
     const penumbra::Surface& surface, const std::string& name);
+  void ReportError(const std::string& message);
+  void ReportWarning(const std::string& message);
+  bool IsNew(const std::string& message);
 
   penumbra::ShadowScene Scene;
+  std::set<std::string> Messages;
+  std::set<std::string> EarlierMessages;
 };
 
 #endif

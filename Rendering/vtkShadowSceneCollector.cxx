@@ -203,7 +203,9 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
     return false;
   }
   this->Signature = std::move(signature);
+  const auto earlier = this->Builder;
   this->Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
+  this->Builder->SetEarlierMessages(earlier->GetMessages());
   this->ReceiverProps.clear();
   VisitParts(renderer,
     [&](vtkProp* prop, const Part& part)

@@ -117,7 +117,7 @@ public:
 
   /**
    * The texels of a receiver as they are shown, i (along its first edge) fastest: three components
-   * of irradiance over pi, and their mean if nothing were blocked. The window must be current.
+   * of irradiance over pi, and what is blocked, in their mean. The window must be current.
    * Receivers are in the order of their props and of the polygons within each. nullptr if there is
    * no such receiver.
    */

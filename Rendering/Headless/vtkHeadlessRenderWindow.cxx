@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 
 namespace
 {
@@ -34,6 +35,38 @@ std::string PrepareContext()
       (version ? version : "none");
   }
   return {};
+}
+
+// The windows that have a context. Never destroyed: windows may outlive all static objects.
+std::set<vtkHeadlessRenderWindow*>& GetWindowsWithContext()
+{
+  static auto* windows = new std::set<vtkHeadlessRenderWindow*>;
+  return *windows;
+}
+
+bool IsProcessEnding = false;
+
+void FinalizeAllWindows()
+{
+  IsProcessEnding = true;
+  const std::set<vtkHeadlessRenderWindow*> windows = GetWindowsWithContext();
+  for (vtkHeadlessRenderWindow* window : windows)
+  {
+    window->Finalize();
+  }
+}
+
+// When a process ends, the functions given to atexit() run first, the last one first, and then the
+// libraries' static objects are destroyed. Mesa gives atexit() its own tear-down with the first
+// context, and ParaView holds windows in a static object. So windows are finalized by a function
+// that comes after Mesa's, once for each class, as each brings a library of its own.
+void FinalizeAtExit(const std::string& windowClass)
+{
+  static auto* classes = new std::set<std::string>;
+  if (classes->insert(windowClass).second)
+  {
+    std::atexit(FinalizeAllWindows);
+  }
 }
 }
 
@@ -69,7 +102,7 @@ bool vtkHeadlessRenderWindow::HasContext()
 //------------------------------------------------------------------------------
 void vtkHeadlessRenderWindow::Initialize()
 {
-  if (!this->Context && this->Problem.empty())
+  if (!this->Context && this->Problem.empty() && !IsProcessEnding)
   {
     this->CreateAWindow();
   }
@@ -91,11 +124,14 @@ void vtkHeadlessRenderWindow::CreateAWindow()
     this->Size[0] = this->Size[0] > 0 ? this->Size[0] : DefaultEdge;
     this->Size[1] = this->Size[1] > 0 ? this->Size[1] : DefaultEdge;
     this->OpenGLInit();
+    GetWindowsWithContext().insert(this);
+    FinalizeAtExit(this->GetClassName());
   }
   if (!this->Problem.empty())
   {
     if (this->Context)
     {
+      GetWindowsWithContext().erase(this);
       this->DestroyContext();
     }
     vtkErrorMacro("No OpenGL context, nothing will be drawn: " << this->Problem << ".");
@@ -136,6 +172,7 @@ void vtkHeadlessRenderWindow::DestroyWindow()
   {
     return;
   }
+  GetWindowsWithContext().erase(this);
   this->PushContext();
   this->ReleaseGraphicsResources(this);
   this->PopContext();

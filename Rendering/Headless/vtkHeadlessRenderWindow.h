@@ -17,6 +17,9 @@
  * without Render(), as vtkHardwareSelector does, must ask SupportsOpenGL() first. Finalize()
  * forgets the failure, so that a later Render() tries again.
  *
+ * A window that still has a context when the process ends is finalized by then, before the OpenGL
+ * library is torn down; after that it gets no context any more.
+ *
  * Only VTK before 9.4 needs these classes; later ones choose between X11, EGL and OSMesa
  * themselves.
  *

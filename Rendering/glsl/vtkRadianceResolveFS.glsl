@@ -6,7 +6,8 @@
 
 // Adds what one light sends to each texel: the closed form times the share of the light that is seen (Heitz,
 // Hill and McGuire 2018), and the variance of that share.
-// Output 0: irradiance / pi in rgb, and in a the mean of its components if nothing were blocked.
+// Output 0: irradiance / pi in rgb, and in a what is blocked, in the mean of the components: 0, to the bit,
+// where nothing is.
 // Output 1: in r, the variance of the mean of rgb once they are reflected.
 
 uniform sampler2D closedForm; // irradiance / pi of the unoccluded light, in rows from firstRow on
@@ -73,7 +74,7 @@ void main()
     : reconstruction != 0    ? reconstructShare(texel)
                              : seenShare(texel);
   vec3 unblocked = channels * texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
-  gl_FragData[0] = vec4(unblocked * seen.r, dot(unblocked, vec3(1.0 / 3.0)));
+  gl_FragData[0] = vec4(unblocked * seen.r, dot(unblocked, vec3(1.0 / 3.0)) * (1.0 - seen.r));
   float error = dot(unblocked * reflectance, vec3(1.0 / 3.0)) * seen.g;
   gl_FragData[1] = vec4(varianceFactor * error * error, 0.0, 0.0, 0.0);
 }

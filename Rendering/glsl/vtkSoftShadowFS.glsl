@@ -37,7 +37,7 @@ int penumbraFindReceiver(vec3 pixel)
   return nearest;
 }
 
-// The irradiance over pi at the fragment, and in a its mean if nothing were blocked.
+// The irradiance over pi at the fragment, and in a what is blocked, in the mean of the components.
 vec4 penumbraLookUp(int i, vec3 pixel)
 {
   vec3 rowU = penumbraRows[3 * i];
@@ -64,7 +64,7 @@ vec3 penumbraShadow()
   vec3 pixel = vec3(gl_FragCoord.xy, 1.0);
   int i = penumbraFindReceiver(pixel);
   vec4 arriving = penumbraLookUp(i, pixel);
-  float unblocked = arriving.a + dot(penumbraAmbient[i], vec3(1.0 / 3.0));
+  float unblocked = arriving.a + dot(arriving.rgb + penumbraAmbient[i], vec3(1.0 / 3.0));
   return unblocked > 0.0 ? (arriving.rgb + penumbraAmbient[i]) / unblocked : vec3(1.0);
 }
 

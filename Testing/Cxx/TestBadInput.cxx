@@ -13,6 +13,7 @@
 #include "vtkOutputWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRadianceMap.h"
+#include "vtkShadowFieldData.h"
 #include "vtkSphereSource.h"
 #include "vtkStringOutputWindow.h"
 #include "vtkStructuredGrid.h"
@@ -139,7 +140,9 @@ TEST(BadInput, CurvedReceiver)
   receiver->Update();
   messages.ExpectOne({ "ShadowReceiver", "degrees", "allowed" });
   EXPECT_EQ(receiver->GetOutput()->GetNumberOfCells(), sphere->GetOutput()->GetNumberOfCells());
-  EXPECT_EQ(receiver->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+  vtkFieldData* fieldData = receiver->GetOutput()->GetFieldData();
+  EXPECT_FALSE(vtkShadowFieldData::ReadReceiver(fieldData));
+  EXPECT_NE(vtkShadowFieldData::ReadRefusal(fieldData), "");
 }
 
 TEST(BadInput, EmptyReceiver)
@@ -159,6 +162,72 @@ TEST(BadInput, NaNInReceiver)
   const Messages messages;
   receiver->Update();
   messages.ExpectOne({ "ShadowReceiver", "not finite", "allowed" });
+}
+
+// One message on the whole way: the filter has said it.
+TEST(BadInput, NaNInReceiverOfAMap)
+{
+  FloorMap floor;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(MakeTriangle(NaN));
+  floor.Map->AddInputConnection(vtkRadianceMap::RECEIVERS, receiver->GetOutputPort());
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, receiver->GetOutputPort());
+  const Messages messages;
+  EXPECT_EQ(floor.CountBlocks(), 1u);
+  messages.ExpectOne({ "ShadowReceiver", "not finite", "allowed" });
+}
+
+// Data that never went through the filter are reported by the map, once.
+TEST(BadInput, NaNInDataOfAMap)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> receiver;
+  receiver->SetOutput(MakeTriangle(NaN));
+  floor.Map->AddInputConnection(vtkRadianceMap::RECEIVERS, receiver->GetOutputPort());
+  const Messages messages;
+  EXPECT_EQ(floor.CountBlocks(), 1u);
+  messages.ExpectOne({ "Receivers[1]", "not finite", "allowed" });
+}
+
+// What was refused for another reason, and has a NaN since, has two things to be said of it.
+TEST(BadInput, NaNAfterARefusal)
+{
+  FloorMap floor;
+  floor.Receiver->SetTexelSize(-1.0);
+  const Messages messages;
+  floor.Receiver->Update();
+  messages.ExpectOne({ "TexelSize is -1" });
+  vtkNew<vtkPolyData> changed;
+  changed->ShallowCopy(floor.Receiver->GetOutput());
+  changed->SetPoints(MakeTriangle(NaN)->GetPoints());
+  changed->SetPolys(MakeTriangle(NaN)->GetPolys());
+  vtkNew<vtkTrivialProducer> occluder;
+  occluder->SetOutput(changed);
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, occluder->GetOutputPort());
+  EXPECT_EQ(floor.CountBlocks(), 0u);
+  EXPECT_EQ(messages.Count("ERROR:"), 2) << messages.GetText();
+  EXPECT_EQ(messages.Count("Occluders[0]"), 1) << messages.GetText();
+}
+
+// The last filter on the way has the last word.
+TEST(BadInput, RefusalIsNotInherited)
+{
+  FloorMap floor;
+  vtkNew<vtkShadowReceiver> second;
+  second->SetInputConnection(floor.Receiver->GetOutputPort());
+  vtkNew<vtkRadianceMap> map;
+  map->AddInputConnection(vtkRadianceMap::RECEIVERS, second->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::LIGHTS, floor.Light->GetOutputPort());
+  const Messages messages;
+  floor.Receiver->SetTexelSize(-1.0);
+  second->SetTexelSize(0.25);
+  map->Update();
+  EXPECT_EQ(map->GetOutput()->GetNumberOfBlocks(), 1u);
+  floor.Receiver->SetTexelSize(0.25);
+  second->SetTexelSize(-1.0);
+  map->Update();
+  EXPECT_EQ(map->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_EQ(messages.Count("ERROR:"), 2) << messages.GetText();
 }
 
 TEST(BadInput, NaNInOccluder)
@@ -251,4 +320,24 @@ TEST(BadInput, InAView)
   scene.Render();
   EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 1);
   EXPECT_EQ(messages.Count("left out"), 1) << messages.GetText();
+  light->SetRadiance(2.0, 2.0, 2.0); // the scene is collected anew
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetBakeCount(), 2);
+  EXPECT_EQ(messages.Count("left out"), 1) << messages.GetText();
+}
+
+TEST(BadInput, NaNInReceiverOfAView)
+{
+  PassScene scene;
+  vtkNew<vtkAreaLightSource> light;
+  scene.AddLight(light, { -0.5, 0.5, 3 }, { 0.5, 0.5, 3 }, { -0.5, -0.5, 3 });
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(MakeTriangle(NaN));
+  scene.Add(receiver);
+  const Messages messages;
+  scene.Render();
+  light->SetRadiance(2.0, 2.0, 2.0);
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 0);
+  messages.ExpectOne({ "ShadowReceiver", "not finite", "allowed" });
 }

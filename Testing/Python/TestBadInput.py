@@ -15,20 +15,20 @@ MAXIMUM_TEXTURE_BYTES = 256 * 2**20
 checks = Checks()
 
 
-def check_message(name, messages, *words, count=1):
-    """There is one message (or as many as said), and these words are there."""
+def check_message(name, messages, *words):
+    """There is one message, and these words are there."""
     found = messages.get()
-    checks.equal(len(found), count, f"{name}: messages")
+    checks.equal(len(found), 1, f"{name}: messages")
     for word in words:
         checks.check(any(word in message for message in found), f"{name}: says '{word}' in {found}")
 
 
-def check_case(name, scene, *words, count=1):
+def check_case(name, scene, *words):
     """Draws the scene's view, and bakes the same as data."""
     with Messages() as messages:
         shown = make_view(scene)
         drawn = picture(shown.view)
-    check_message(f"{name}, view", messages, *words, count=count)
+    check_message(f"{name}, view", messages, *words)
     checks.at_least(len(numpy.unique(drawn.reshape(-1, 3), axis=0)), 10, f"{name}: colours in the picture")
     check_finite(name, scene)
     return shown, drawn
@@ -37,7 +37,7 @@ def check_case(name, scene, *words, count=1):
 def check_finite(name, scene):
     with Messages() as messages:
         blocks = bake([scene.receiver], [scene.sphere], [scene.light])
-    print(f"        {name}: {len(blocks)} blocks, {len(messages.get())} messages")
+    checks.at_most(len(messages.get()), 1, f"{name}: messages of the bake, which gives {len(blocks)} blocks")
     for grid in blocks:
         for array in ("Radiance", "Visibility", "ErrorEstimate"):
             checks.check(numpy.isfinite(cell_array(grid, array)).all(), f"{name}: {array} is finite")
@@ -89,8 +89,7 @@ def check_light_without_area():
 def check_nan_receiver():
     scene = make_scene()
     scene.receiver.Input = nan_polygon()
-    # The filter refuses it as a receiver, and the view's pass leaves its polygon out of the occluders.
-    check_case("NaN in a receiver", scene, "ShadowReceiver", "nan", "allowed", count=2)
+    check_case("NaN in a receiver", scene, "ShadowReceiver", "nan", "allowed")
 
 
 def check_nan_light():
@@ -140,7 +139,7 @@ def check_no_occluders():
         (grid,) = bake([scene.receiver], [], [scene.light])
     checks.equal(messages.get(), [], "no occluders: messages")
     checks.at_least(cell_array(grid, "Radiance").min(), 1e-6, "no occluders: least radiance")
-    checks.at_least(cell_array(grid, "Visibility").min(), 1 - 1e-6, "no occluders: least visibility")
+    checks.equal(cell_array(grid, "Visibility").min(), 1.0, "no occluders: least visibility")
 
 
 def check_no_lights():

@@ -10,8 +10,6 @@ from penumbra_testing import (
 
 # Texels are single precision; issue 2 allows 1e-5 of the peak.
 LAMBERT_TOLERANCE = 1e-5
-# Visibility divides sums over components and lights, of single precision (6e-8).
-ROUNDING = 1e-6
 
 checks = Checks()
 
@@ -102,7 +100,7 @@ def check_lambert():
         error = numpy.abs(cell_array(grid, "Radiance") - wanted).max() / wanted.max()
         names = ", ".join(str(light.Shape) for light in lights)
         checks.at_most(error, LAMBERT_TOLERANCE, f"error against Lambert's formula, share of the peak, {names}")
-        checks.at_least(cell_array(grid, "Visibility").min(), 1 - ROUNDING, "visibility where nothing blocks")
+        checks.equal(cell_array(grid, "Visibility").min(), 1.0, "visibility where nothing blocks")
         checks.equal(cell_array(grid, "ErrorEstimate").max(), 0.0, "error estimate of a closed form")
         checks.equal(grid.GetFieldData().GetAbstractArray("Effect").GetValue(0), "Unoccluded", "Effect")
         checks.equal(grid.GetFieldData().GetArray("LightSamples").GetValue(0), 0, "samples of a closed form")
@@ -211,6 +209,32 @@ def check_visibility():
     checks.check((more < fewer).any(), "the second occluder has a shadow")
 
 
+def coloured_lights(scene):
+    """Five lights whose colours no float has exactly."""
+    return [scene.light] + [
+        simple.AreaLight(
+            Origin=[i - 3, -2, 5], Point1=[i - 3, -1, 5], Point2=[i - 2, -2, 5], Radiance=[0.1 + i, 0.7 / (i + 1), 0.3])
+        for i in range(1, 5)]
+
+
+def check_visibility_is_exact():
+    """Where nothing is blocked visibility is 1, and where all is it is 0, to the bit, whatever the lights."""
+    scene = make_scene(texel_size=0.1, radiance=(0.9, 0.7, 0.3))
+    lights = coloured_lights(scene)
+    lid = simple.Plane(Origin=[-2, -2, 1], Point1=[2, -2, 1], Point2=[-2, 2, 1])
+    for supersampling in (1, 4):
+        scene.receiver.Supersampling = supersampling
+        (grid,) = bake([scene.receiver], [], lights)
+        checks.check((cell_array(grid, "Visibility") == 1).all(), "without an occluder, visibility is 1 everywhere")
+        wanted = cell_array(grid, "Radiance")
+        (grid,) = bake([scene.receiver], [lid], lights)
+        visibility, radiance = cell_array(grid, "Visibility"), cell_array(grid, "Radiance")
+        checks.check(((visibility == 1) == (radiance == wanted).all(-1)).all(), "it is 1 just where no light is lost")
+        checks.check(((visibility == 0) == (radiance == 0).all(-1)).all(), "it is 0 just where none arrives")
+        checks.at_least((visibility == 0).sum(), 500, "texels in the umbra")
+        checks.at_least((visibility == 1).sum(), 500, "lit texels")
+
+
 def check_order():
     scene = make_scene(texel_size=0.1, radiance=(0.9, 0.7, 0.3))
     other = simple.AreaLight(Origin=[-4, -1, 3], Point1=[-4, 1, 3], Point2=[-3, -1, 4], Radiance=[0.1, 0.2, 0.7])
@@ -276,6 +300,7 @@ check_linearity()
 check_umbra()
 check_receivers_shadow_each_other()
 check_visibility()
+check_visibility_is_exact()
 check_order()
 check_error_estimate()
 check_settings()

@@ -59,7 +59,6 @@ class Checks:
 
     def finish(self):
         print(f"{len(self.failed)} checks failed.", flush=True)
-        simple.Disconnect()  # Mesa is torn down before what ParaView still holds when the script exits
         sys.exit(1 if self.failed else 0)
 
 
