@@ -5,6 +5,7 @@
 // casts rays, and identities that any exact answer obeys.
 
 #include "ExactRadiance.h"
+#include "OracleTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <random>
-#include <sstream>
 #include <vector>
 
 namespace
@@ -30,67 +29,7 @@ using oracle::Triangle;
 using oracle::Vec3;
 using oracle::VisibleFormFactor;
 
-const long double Pi = std::acos(-1.0L);
-
-// Identities hold up to rounding. A form factor is a sum of under 1e3 edge terms of size below 1,
-// each good to a few 1e-19 (long double), so 1e-15 of the unoccluded form factor leaves a margin.
-constexpr long double Rounding = 1e-15L;
-
-const Vec3 Origin = { 0, 0, 0 };
-const Vec3 Up = { 0, 0, 1 };
-
-using Occluders = std::vector<Triangle>;
-
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-
-  long double Between(double low, double high)
-  {
-    return std::uniform_real_distribution<double>(low, high)(this->Engine);
-  }
-
-  Vec3 InBox(const Vec3& centre, double halfWidth)
-  {
-    const Vec3 offset = { this->Between(-halfWidth, halfWidth),
-      this->Between(-halfWidth, halfWidth), this->Between(-halfWidth, halfWidth) };
-    return centre + offset;
-  }
-
-  std::mt19937_64 Engine;
-};
-
-// The largest of some deviations, kept with the test's results.
-class Largest
-{
-public:
-  explicit Largest(const char* name)
-    : Name(name)
-  {
-  }
-  ~Largest()
-  {
-    std::ostringstream text;
-    text << this->Value;
-    testing::Test::RecordProperty(this->Name, text.str());
-  }
-  Largest(const Largest&) = delete;
-  Largest& operator=(const Largest&) = delete;
-
-  long double Add(long double deviation)
-  {
-    this->Value = std::max(this->Value, std::abs(deviation));
-    return std::abs(deviation);
-  }
-
-private:
-  const char* Name;
-  long double Value = 0;
-};
+using namespace oracletest;
 
 // A parallelogram light, or its triangle at the corner, with occluders. These reach through the
 // receiver's plane and through the light's plane, the normal leans so far that the horizon cuts
@@ -108,19 +47,6 @@ struct Scene
     return this->Corner + u * this->Edge1 + v * this->Edge2;
   }
 };
-
-Occluders RandomTriangles(Random& random, int count)
-{
-  Occluders triangles;
-  for (int i = 0; i < count; ++i)
-  {
-    const Vec3 centre = { random.Between(-0.6, 0.6), random.Between(-0.6, 0.6),
-      random.Between(-0.2, 1.8) };
-    triangles.push_back(
-      { random.InBox(centre, 0.4), random.InBox(centre, 0.4), random.InBox(centre, 0.4) });
-  }
-  return triangles;
-}
 
 Scene RandomScene(unsigned seed)
 {
@@ -144,22 +70,6 @@ Scene RandomScene(unsigned seed)
   return scene;
 }
 
-// Moeller and Trumbore 1997: whether the open segment from x to y passes through the triangle.
-bool Blocks(const Triangle& triangle, const Vec3& x, const Vec3& y)
-{
-  const Vec3 edge1 = triangle.B - triangle.A;
-  const Vec3 edge2 = triangle.C - triangle.A;
-  const Vec3 direction = y - x;
-  const Vec3 p = Cross(direction, edge2);
-  const long double det = Dot(edge1, p);
-  const Vec3 s = x - triangle.A;
-  const Vec3 q = Cross(s, edge1);
-  const long double u = Dot(s, p) / det;
-  const long double v = Dot(direction, q) / det;
-  const long double t = Dot(edge2, q) / det;
-  return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < 1;
-}
-
 // The integrand of the form factor times the light's Jacobian, at one point of its parallelogram.
 long double Integrand(const Scene& scene, long double u, long double v)
 {
@@ -175,52 +85,8 @@ long double Integrand(const Scene& scene, long double u, long double v)
   {
     return 0;
   }
-  const bool blocked = std::any_of(scene.Blockers.begin(), scene.Blockers.end(),
-    [&](const Triangle& triangle) { return Blocks(triangle, scene.X, y); });
-  return blocked ? 0 : up * std::abs(facing) / (Pi * Dot(r, r) * Dot(r, r));
-}
-
-struct Estimate
-{
-  long double Mean, StandardError;
-};
-
-// Stratified quadrature with two random points in each of n x n cells. The two are independent and
-// alike, so (f - g)^2 / 4 is an unbiased estimate of the variance of their mean.
-Estimate Quadrature(const Scene& scene, int n, Random& random)
-{
-  long double sum = 0;
-  long double variance = 0;
-  for (int i = 0; i < n; ++i)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      const long double f =
-        Integrand(scene, (i + random.Between(0, 1)) / n, (j + random.Between(0, 1)) / n);
-      const long double g =
-        Integrand(scene, (i + random.Between(0, 1)) / n, (j + random.Between(0, 1)) / n);
-      sum += (f + g) / 2;
-      variance += (f - g) * (f - g) / 4;
-    }
-  }
-  const long double cells = static_cast<long double>(n) * n;
-  return { sum / cells, std::sqrt(variance) / cells };
-}
-
-// A square in the plane z = height around the axis, facing down.
-Light Ceiling(long double halfWidth, long double height)
-{
-  Light light;
-  light.Vertices = Parallelogram({ -halfWidth, -halfWidth, height },
-    { -halfWidth, halfWidth, height }, { halfWidth, -halfWidth, height });
-  return light;
-}
-
-// The square of Ceiling as two triangles.
-Occluders Plate(long double halfWidth, long double height)
-{
-  const Polygon p = Ceiling(halfWidth, height).Vertices;
-  return { { p[0], p[1], p[2] }, { p[0], p[2], p[3] } };
+  return Blocks(scene.Blockers, scene.X, y) ? 0
+                                            : up * std::abs(facing) / (Pi * Dot(r, r) * Dot(r, r));
 }
 
 // A sphere of 2 (stacks - 1) slices triangles.
@@ -415,7 +281,8 @@ TEST(ExactRadiance, AgreesWithQuadrature)
   for (unsigned seed = 0; seed < scenes; ++seed)
   {
     const Scene scene = RandomScene(seed);
-    const Estimate estimate = Quadrature(scene, cellsPerSide, random);
+    const Estimate estimate = Quadrature(
+      [&](long double u, long double v) { return Integrand(scene, u, v); }, cellsPerSide, random);
     const long double exact = VisibleFormFactor(scene.X, scene.N, scene.Emitter, scene.Blockers);
     const long double deviation = largest.Add(exact - estimate.Mean);
     largestError.Add(estimate.StandardError);
