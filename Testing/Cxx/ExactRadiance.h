@@ -9,6 +9,8 @@
  * that is left is a set of convex polygons, whose form factor Lambert's edge formula gives exactly.
  * What remains is rounding: some 1e-18 where long double has 80 bits.
  *
+ * ExactLights.h has lights of other shapes.
+ *
  * All points and vectors are in world coordinates, in any one unit of length.
  */
 

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace
