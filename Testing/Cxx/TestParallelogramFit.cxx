@@ -318,6 +318,18 @@ TEST(ParallelogramFit, EnclosesRegularPolygonsInTheSmallestRectangle)
   }
 }
 
+// As many vertices as a fine disc has. Around the unit circle the smallest rectangle has area 4;
+// the vertices that are dropped stand out by less than the flatness.
+TEST(ParallelogramFit, FitsADiscOfManyVertices)
+{
+  RandomGeometry random(16);
+  const Plane plane(random);
+  const Points3 disc = plane.ToSpace(RegularPolygon(64000, 0.0));
+  const std::optional<Parallelogram> fit = FitParallelogram(disc, plane.Normal);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(AreaOf(*fit), 4.0, 4.0 * 2.0 * Flatness);
+}
+
 TEST(ParallelogramFit, EnclosesRandomPointsInTheSmallestRectangle)
 {
   RandomGeometry random(8);
@@ -415,6 +427,51 @@ TEST(ParallelogramFit, EnclosesFloatRectanglesFarFromTheOrigin)
       // No larger than the rectangle (2 by 1) grown by the rounding on all sides.
       EXPECT_LE(AreaOf(*fit), (2.0 + 2.0 * rounding) * (1.0 + 2.0 * rounding) * (1.0 + Rounding));
     }
+  }
+}
+
+// A plane of many cells, as ParaView's source makes it: its corners, not a hull of rounded
+// vertices. At D = 1e4 the rounding is 2e-3, a hundredth of a cell.
+TEST(ParallelogramFit, KnowsFloatRectanglesFarFromTheOriginByTheirRounding)
+{
+  RandomGeometry random(14);
+  constexpr int cells = 5;
+  for (const double distance : { 1.0, 1e2, 1e3, 1e4 })
+  {
+    const double rounding = (distance + 3.0) * 0x1p-23;
+    for (int i = 0; i < 200; ++i)
+    {
+      Plane plane(random);
+      plane.Origin = distance * random.Direction();
+      Points3 points;
+      for (int j = 0; j < (cells + 1) * (cells + 1); ++j)
+      {
+        const double x = 2.0 * (j % (cells + 1)) / cells;
+        points.push_back(plane.ToSpace(glm::dvec2(x, 1.0 * (j / (cells + 1)) / cells)));
+      }
+      points = RoundToFloat(points);
+      const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal, rounding);
+      ASSERT_TRUE(fit);
+      EXPECT_EQ(fit->Corner, points[0]);
+      EXPECT_EQ(fit->EdgeX, points[cells] - points[0]);
+      EXPECT_EQ(fit->EdgeY, points[cells * (cells + 1)] - points[0]);
+    }
+  }
+}
+
+// Slivers that are thinner than the rounding of their points still get something around them.
+TEST(ParallelogramFit, EnclosesSliversOfTheRoundingsSize)
+{
+  RandomGeometry random(15);
+  for (int i = 0; i < 200; ++i)
+  {
+    const Plane plane(random);
+    const double width = std::pow(10.0, random.Between(-6.0, -1.0));
+    const Points3 points = Quad(plane.Origin, 2.0 * plane.X, width * plane.Y);
+    const double rounding = std::pow(10.0, random.Between(-4.0, -1.0));
+    const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal, rounding);
+    ASSERT_TRUE(fit);
+    ExpectEnclosed(*fit, points, Rounding * (10.0 + ExtentOf(points)));
   }
 }
 
