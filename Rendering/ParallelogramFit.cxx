@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace penumbra
 {
@@ -67,32 +69,63 @@ std::vector<PlanePoint> ConvexHull(std::vector<PlanePoint> points)
   return hull;
 }
 
+/// How far b stands out from the line from a to c.
+double Height(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
+{
+  const double chord = glm::length(c - a);
+  const double height = chord > 0.0 ? std::abs(Cross(c - a, b - a)) / chord : 0.0;
+  // What overflows is not flat.
+  return std::isnan(height) ? std::numeric_limits<double>::infinity() : height;
+}
+
 /// Drops vertices that lie within `tolerance` of the line between their neighbours, flattest first.
+/// Takes n log n steps.
 void Simplify(std::vector<PlanePoint>& hull, double tolerance)
 {
-  while (hull.size() > 3)
+  struct Vertex
   {
-    std::size_t flattest = 0;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < hull.size(); ++i)
-    {
-      const glm::dvec2& before = hull[(i + hull.size() - 1) % hull.size()].P;
-      const glm::dvec2 chord = hull[(i + 1) % hull.size()].P - before;
-      const double chordLength = glm::length(chord);
-      const double height =
-        chordLength > 0.0 ? std::abs(Cross(chord, hull[i].P - before)) / chordLength : 0.0;
-      if (height < smallest)
-      {
-        smallest = height;
-        flattest = i;
-      }
-    }
-    if (smallest > tolerance)
-    {
-      return;
-    }
-    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(flattest));
+    std::size_t Before, After;
+    double Height;
+  };
+  const std::size_t count = hull.size();
+  std::vector<Vertex> vertices(count);
+  std::set<std::pair<double, std::size_t>> byHeight;
+  const auto insert = [&](std::size_t i)
+  {
+    Vertex& v = vertices[i];
+    v.Height = Height(hull[v.Before].P, hull[i].P, hull[v.After].P);
+    byHeight.emplace(v.Height, i);
+  };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    vertices[i].Before = (i + count - 1) % count;
+    vertices[i].After = (i + 1) % count;
+    insert(i);
   }
+  while (byHeight.size() > 3 && byHeight.begin()->first <= tolerance)
+  {
+    const auto [before, after, height] = vertices[byHeight.begin()->second];
+    byHeight.erase(byHeight.begin());
+    vertices[before].After = after;
+    vertices[after].Before = before;
+    for (const std::size_t neighbour : { before, after })
+    {
+      byHeight.erase({ vertices[neighbour].Height, neighbour });
+      insert(neighbour);
+    }
+  }
+  std::vector<std::size_t> kept;
+  for (const auto& entry : byHeight)
+  {
+    kept.push_back(entry.second);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<PlanePoint> simplified;
+  for (const std::size_t i : kept)
+  {
+    simplified.push_back(hull[i]);
+  }
+  hull = std::move(simplified);
 }
 
 double HullArea(const std::vector<PlanePoint>& hull)
@@ -145,7 +178,7 @@ bool IsParallelogram(const std::vector<PlanePoint>& hull, double tolerance)
 } // namespace
 
 std::optional<Parallelogram> FitParallelogram(
-  const std::vector<glm::dvec3>& points, const glm::dvec3& normal)
+  const std::vector<glm::dvec3>& points, const glm::dvec3& normal, double rounding)
 {
   if (points.size() < 3)
   {
@@ -168,9 +201,14 @@ std::optional<Parallelogram> FitParallelogram(
   }
 
   std::vector<PlanePoint> hull = ConvexHull(std::move(plane));
-  // A sliver's own height is small: what is rounding is measured against the smaller of its
-  // extents.
-  const double tolerance = FlatnessTolerance * std::min(extent, HullArea(hull) / extent);
+  // How far a parallelogram's corner stands out from the diagonal beside it, or more. A sliver's is
+  // small: what is rounding is measured against it.
+  const double thickness = HullArea(hull) / extent;
+  const double flatness = FlatnessTolerance * std::min(extent, thickness);
+  // Each of the three points that make a height is off by half the rounding, and so is each of the
+  // four that make two edges differ. Half the thickness leaves the corners.
+  const double known = std::min(rounding, 0.5 * thickness);
+  const double tolerance = std::max(flatness, known);
   Simplify(hull, tolerance);
   // Points on a line span the area of their own rounding.
   if (hull.size() < 3 ||
@@ -183,7 +221,7 @@ std::optional<Parallelogram> FitParallelogram(
       [](const PlanePoint& a, const PlanePoint& b) { return a.Index < b.Index; }),
     hull.end());
 
-  if (hull.size() == 3 || IsParallelogram(hull, tolerance))
+  if (hull.size() == 3 || IsParallelogram(hull, std::max(flatness, 2.0 * known)))
   {
     // From the input's own points: what was exact stays exact.
     const glm::dvec3& corner = points[hull.front().Index];

@@ -27,11 +27,12 @@ namespace penumbra
  *
  * EdgeX x EdgeY points along `normal` (unit length). The corner is the hull's vertex that comes
  * first in `points` (of an enclosing rectangle: the corner before its side along the hull), so that
- * the fit does not depend on where the points are. Nothing is returned for points on a line, fewer
- * than three, or coordinates that are not finite.
+ * the fit does not depend on where the points are. `rounding` is twice how far the points may be
+ * off by the rounding of their type: their size times the type's epsilon. Nothing is returned for
+ * points on a line, fewer than three, or coordinates that are not finite.
  */
 PENUMBRARENDERING_EXPORT std::optional<Parallelogram> FitParallelogram(
-  const std::vector<glm::dvec3>& points, const glm::dvec3& normal);
+  const std::vector<glm::dvec3>& points, const glm::dvec3& normal, double rounding = 0.0);
 
 } // namespace penumbra
 

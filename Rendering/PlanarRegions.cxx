@@ -249,7 +249,7 @@ std::string FitRegion(
          << " stray by " << stray << " from its plane; allowed: " << tolerance;
     return text.str();
   }
-  const std::optional<Parallelogram> base = FitParallelogram(points, normal);
+  const std::optional<Parallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
   if (!base)
   {
     return "its points lie on a line; allowed: polygons that span an area";

@@ -5,7 +5,9 @@
 // closed forms of its area, and the sample maps by what makes them area-preserving.
 
 #include "ExactRadiance.h"
+#include "LargestDeviation.h"
 #include "PolygonLight.h"
+#include "RandomGeometry.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +15,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
-#include <sstream>
 #include <vector>
 
 namespace
@@ -33,37 +33,6 @@ constexpr double FormFactorTolerance = 1e-12;
 // Lengths, areas and heights of coordinates of size 10 and less: some 100 roundings of 1.1e-16
 // times 10, and a margin.
 constexpr double Rounding = 1e-12;
-
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-  double Between(double low, double high)
-  {
-    return low + (high - low) * static_cast<double>(this->Engine() >> 11) * 0x1p-53;
-  }
-  glm::dvec3 InBox(double halfWidth)
-  {
-    const double x = this->Between(-halfWidth, halfWidth);
-    const double y = this->Between(-halfWidth, halfWidth);
-    return { x, y, this->Between(-halfWidth, halfWidth) };
-  }
-  glm::dvec3 Direction()
-  {
-    glm::dvec3 d(0.0);
-    while (glm::length(d) < 0.1 || glm::length(d) > 1.0)
-    {
-      d = this->InBox(1.0);
-    }
-    return glm::normalize(d);
-  }
-
-private:
-  std::mt19937_64 Engine;
-};
 
 // The three points that make a light, and which kind.
 struct Corners
@@ -87,7 +56,7 @@ struct Corners
 // Around the origin, edges up to 2 long and not nearly parallel.
 Corners RandomCorners(unsigned seed)
 {
-  Random random(seed);
+  RandomGeometry random(seed);
   Corners corners{};
   do
   {
@@ -116,29 +85,9 @@ double ExactFormFactor(
   return static_cast<double>(oracle::FormFactor(ToOracle(x), ToOracle(n), light));
 }
 
-// The largest of some deviations, kept with the test's results.
-class Largest
-{
-public:
-  ~Largest()
-  {
-    std::ostringstream text;
-    text << this->Value;
-    testing::Test::RecordProperty("LargestDeviation", text.str());
-  }
-  double Add(double deviation)
-  {
-    this->Value = std::max(this->Value, std::abs(deviation));
-    return std::abs(deviation);
-  }
-
-private:
-  double Value = 0.0;
-};
-
 // Compares the light's form factor with the oracle's, for one side and two; answers the former.
 double ExpectExact(
-  const Corners& corners, const glm::dvec3& x, const glm::dvec3& n, Largest& largest)
+  const Corners& corners, const glm::dvec3& x, const glm::dvec3& n, LargestDeviation& largest)
 {
   PolygonLight light = corners.MakeLight();
   const double front = light.FormFactor(x, n);
@@ -159,10 +108,10 @@ glm::dvec3 PointBefore(const Corners& corners, const glm::dvec2& s, double heigh
 
 TEST(PolygonLightFormFactor, IsExactOverTheLight)
 {
-  Largest largest;
+  LargestDeviation largest;
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed + Lights);
+    RandomGeometry random(seed + Lights);
     const Corners corners = RandomCorners(seed);
     const glm::dvec2 s(random.Between(0.0, 0.5), random.Between(0.0, 0.5));
     const glm::dvec3 x = PointBefore(corners, s, std::pow(10.0, random.Between(-3.0, 1.0)));
@@ -175,11 +124,11 @@ TEST(PolygonLightFormFactor, IsExactOverTheLight)
 // leaning as it likes.
 TEST(PolygonLightFormFactor, IsExactBesideTheLight)
 {
-  Largest largest;
+  LargestDeviation largest;
   int lit = 0;
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed + 2 * Lights);
+    RandomGeometry random(seed + 2 * Lights);
     const Corners corners = RandomCorners(seed);
     const glm::dvec2 s(random.Between(-4.0, 5.0), random.Between(-4.0, 5.0));
     const glm::dvec3 x = PointBefore(corners, s, random.Between(-1.0, 3.0));
@@ -194,10 +143,10 @@ TEST(PolygonLightFormFactor, IsExactBesideTheLight)
 // The receiver's plane passes through the light's middle, at any angle.
 TEST(PolygonLightFormFactor, IsExactWhereTheHorizonCutsTheLight)
 {
-  Largest largest;
+  LargestDeviation largest;
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed + 3 * Lights);
+    RandomGeometry random(seed + 3 * Lights);
     const Corners corners = RandomCorners(seed);
     const glm::dvec3 inside =
       corners.MakeLight().Sample({ random.Between(0.2, 0.8), random.Between(0.2, 0.8) });
@@ -212,10 +161,10 @@ TEST(PolygonLightFormFactor, IsExactWhereTheHorizonCutsTheLight)
 // Points of one receiver before and behind the light: a one-sided light shines on those before it.
 TEST(PolygonLightFormFactor, IsZeroBehindAOneSidedLight)
 {
-  Largest largest;
+  LargestDeviation largest;
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed + 4 * Lights);
+    RandomGeometry random(seed + 4 * Lights);
     const Corners corners = RandomCorners(seed);
     const glm::dvec2 s(random.Between(-2.0, 3.0), random.Between(-2.0, 3.0));
     const double height = random.Between(0.01, 2.0);
@@ -352,7 +301,7 @@ TEST(PolygonLightClipping, LeavesTheAreaInFront)
   int cut = 0;
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed);
+    RandomGeometry random(seed);
     const Corners corners = RandomCorners(seed);
     const glm::dvec3 point = random.InBox(1.0);
     const glm::dvec3 normal = random.Direction();
@@ -370,7 +319,7 @@ TEST(PolygonLightClipping, KeepsWhatTheLightIs)
 {
   for (unsigned seed = 0; seed < Lights; ++seed)
   {
-    Random random(seed);
+    RandomGeometry random(seed);
     PolygonLight light = RandomCorners(seed).MakeLight();
     light.Radiance = { 1.0, 2.0, 3.0 };
     light.TwoSided = seed % 3 == 0;
@@ -426,7 +375,7 @@ std::vector<PolygonLight> SampledLights()
   std::vector<PolygonLight> lights;
   for (unsigned seed = 0; seed < 40; ++seed)
   {
-    Random random(seed);
+    RandomGeometry random(seed);
     PolygonLight light = RandomCorners(seed).MakeLight();
     for (unsigned cut = 0; cut < seed / 2 % 3; ++cut)
     {
@@ -453,7 +402,7 @@ TEST(PolygonLightSample, LandsOnTheLight)
 {
   for (const PolygonLight& light : SampledLights())
   {
-    Random random(5);
+    RandomGeometry random(5);
     for (int i = 0; i < 2000; ++i)
     {
       // Among them the square's corners and edges.
@@ -481,7 +430,7 @@ TEST(PolygonLightSample, StretchesAreasAlike)
   constexpr int points = 2000;
   for (const PolygonLight& light : SampledLights())
   {
-    Random random(6);
+    RandomGeometry random(6);
     int wrong = 0;
     for (int i = 0; i < points; ++i)
     {
@@ -507,7 +456,7 @@ TEST(PolygonLightSample, CoversTheLightEvenly)
   for (const PolygonLight& light : SampledLights())
   {
     const double bound = 6.0 / n * static_cast<double>(light.GetVertices().size() - 2);
-    Random random(7);
+    RandomGeometry random(7);
     for (int line = 0; line < 4; ++line)
     {
       const glm::dvec3 point = light.Sample({ random.Between(0.2, 0.8), random.Between(0.2, 0.8) });
@@ -524,7 +473,7 @@ TEST(PolygonLightSample, CoversTheLightEvenly)
   }
 }
 
-glm::dmat4 RandomRotation(Random& random, bool isMirrored)
+glm::dmat4 RandomRotation(RandomGeometry& random, bool isMirrored)
 {
   const glm::dvec3 z = random.Direction();
   const glm::dvec3 x = glm::normalize(glm::cross(z, random.Direction()));
@@ -538,7 +487,7 @@ glm::dmat4 RandomRotation(Random& random, bool isMirrored)
 // in a mirror: its front stays its front.
 void ExpectSameLightAfter(const glm::dmat4& matrix, unsigned seed)
 {
-  Random random(seed);
+  RandomGeometry random(seed);
   const Corners corners = RandomCorners(seed);
   PolygonLight light = corners.MakeLight();
   light.Radiance = { 3.0, 2.0, 1.0 };
@@ -563,7 +512,7 @@ void ExpectSameLightAfter(const glm::dmat4& matrix, unsigned seed)
 
 TEST(PolygonLightTransformed, ShinesAsBeforeWhenMoved)
 {
-  Random random(8);
+  RandomGeometry random(8);
   for (unsigned seed = 0; seed < 200; ++seed)
   {
     ExpectSameLightAfter(RandomRotation(random, false), seed);
@@ -572,7 +521,7 @@ TEST(PolygonLightTransformed, ShinesAsBeforeWhenMoved)
 
 TEST(PolygonLightTransformed, ShinesAsBeforeInAMirror)
 {
-  Random random(9);
+  RandomGeometry random(9);
   for (unsigned seed = 0; seed < 200; ++seed)
   {
     ExpectSameLightAfter(RandomRotation(random, true), seed);

@@ -4,6 +4,8 @@
 // The receiver's frame and the registered projection in it, against the matrices of the papers,
 // which are written out here from their formulas and evaluated in long double.
 
+#include "LargestDeviation.h"
+#include "RandomGeometry.h"
 #include "ReceiverFrame.h"
 #include "RegisteredProjection.h"
 
@@ -13,8 +15,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
-#include <sstream>
 
 namespace
 {
@@ -36,51 +36,8 @@ constexpr int Pyramids = 1000;
 constexpr double Tolerance = 1e-12;
 constexpr double MinimumSine = 0.2;
 
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-  double Between(double low, double high)
-  {
-    return low + (high - low) * static_cast<double>(this->Engine() >> 11) * 0x1p-53;
-  }
-  glm::dvec3 InBox(double halfWidth)
-  {
-    const double x = this->Between(-halfWidth, halfWidth);
-    const double y = this->Between(-halfWidth, halfWidth);
-    return { x, y, this->Between(-halfWidth, halfWidth) };
-  }
-
-private:
-  std::mt19937_64 Engine;
-};
-
-// The largest of some relative deviations, kept with the test's results.
-class Largest
-{
-public:
-  ~Largest()
-  {
-    std::ostringstream text;
-    text << this->Value;
-    testing::Test::RecordProperty("LargestDeviation", text.str());
-  }
-  double Add(long double deviation, long double size)
-  {
-    const auto relative = static_cast<double>(std::abs(deviation) / size);
-    this->Value = std::max(this->Value, relative);
-    return relative;
-  }
-
-private:
-  double Value = 0.0;
-};
-
 // A skewed base some way off the origin; its edges are 0.1 to 10 long and differ by up to 3 times.
-Parallelogram RandomBase(Random& random)
+Parallelogram RandomBase(RandomGeometry& random)
 {
   while (true)
   {
@@ -109,7 +66,7 @@ struct Pyramid
 
 Pyramid RandomPyramid(unsigned seed)
 {
-  Random random(seed);
+  RandomGeometry random(seed);
   Pyramid pyramid;
   pyramid.Base = RandomBase(random);
   pyramid.Frame = ReceiverFrame(pyramid.Base, seed % 2 == 0 ? Side::Front : Side::Back);
@@ -172,7 +129,7 @@ Long4 BlinnShadow(const Long4& light, const Long4& plane, const Long4& point)
 
 TEST(ReceiverFrame, MapsByItsDefinition)
 {
-  Random random(1);
+  RandomGeometry random(1);
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
     const Pyramid pyramid = RandomPyramid(seed);
@@ -191,7 +148,7 @@ TEST(ReceiverFrame, MapsByItsDefinition)
 
 TEST(ReceiverFrame, RoundTrips)
 {
-  Largest largest;
+  LargestDeviation largest;
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
     const Pyramid pyramid = RandomPyramid(seed);
@@ -259,8 +216,8 @@ TEST(ReceiverFrame, IsInvalidWithoutAnArea)
 
 TEST(ReceiverFrame, MetricFramePreservesDistancesAndAngles)
 {
-  Largest largest;
-  Random random(2);
+  LargestDeviation largest;
+  RandomGeometry random(2);
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
     const Pyramid pyramid = RandomPyramid(seed);
@@ -310,7 +267,7 @@ TEST(ReceiverFrame, FarFromTheOriginIsAsGoodAsNear)
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
     Pyramid pyramid = RandomPyramid(seed);
-    Random random(seed + 1);
+    RandomGeometry random(seed + 1);
     pyramid.Base = { onLattice(pyramid.Base.Corner), onLattice(pyramid.Base.EdgeX),
       onLattice(pyramid.Base.EdgeY) };
     const glm::dvec3 point = onLattice(random.InBox(10.0));
@@ -325,7 +282,7 @@ TEST(ReceiverFrame, FarFromTheOriginIsAsGoodAsNear)
 
 TEST(RegisteredProjection, EqualsHeckbertAndHerfsMatrix)
 {
-  Largest largest;
+  LargestDeviation largest;
   int inFront = 0, beyond = 0;
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
@@ -350,7 +307,7 @@ TEST(RegisteredProjection, EqualsHeckbertAndHerfsMatrix)
 // is homogeneous and may be compared where w' is 0 or negative. Its scale is 1 / (L.G) of Blinn's.
 TEST(RegisteredProjection, EqualsBlinnsProjection)
 {
-  Largest largest;
+  LargestDeviation largest;
   for (unsigned seed = 0; seed < Pyramids; ++seed)
   {
     const Pyramid pyramid = RandomPyramid(seed);
@@ -374,7 +331,7 @@ TEST(RegisteredProjection, EqualsBlinnsProjection)
 // whatever the sample.
 TEST(RegisteredProjection, LeavesTheReceiverWhereItIs)
 {
-  Random random(3);
+  RandomGeometry random(3);
   for (int i = 0; i < Pyramids; ++i)
   {
     const RegisteredProjection projection = RegisteredProjection::FromPoint(
@@ -388,7 +345,7 @@ TEST(RegisteredProjection, LeavesTheReceiverWhereItIs)
 // w' is 0 in the plane through the sample that is parallel to the receiver, positive below it.
 TEST(RegisteredProjection, DividesSpaceAtTheSamplesHeight)
 {
-  Random random(4);
+  RandomGeometry random(4);
   for (int i = 0; i < Pyramids; ++i)
   {
     const double height = random.Between(0.01, 5.0);

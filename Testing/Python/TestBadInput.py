@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Input that makes no sense gives one error message, which names the value and what is allowed; the rest is drawn."""
-import sys
-
 import numpy
 from paraview import simple
 
 from penumbra_testing import (
-    PLAIN, Checks, Messages, bake, cell_array, find_pass, load_plugin, make_scene, make_view, picture)
+    PLAIN, Checks, Messages, bake, cell_array, find_pass, make_scene, make_view, picture)
 
 # DESIGN 4 and issue 2: a receiver's textures may not pass this.
 MAXIMUM_TEXTURE_BYTES = 256 * 2**20
@@ -158,10 +156,4 @@ def check_no_lights():
 
 CASES = [check_curved_receiver, check_empty_receiver, check_light_without_area, check_nan_receiver, check_nan_light,
          check_nan_occluder, check_tiny_texels, check_properties, check_no_occluders, check_no_lights]
-load_plugin()
-for case in CASES:
-    if len(sys.argv) < 2 or case.__name__ in sys.argv[1:]:
-        case()
-        simple.ResetSession()
-        load_plugin()
-checks.finish()
+checks.run(CASES)

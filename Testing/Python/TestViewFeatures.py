@@ -5,8 +5,6 @@
 Each case draws the same view twice, the receiver as 'Surface' and as 'Soft Shadow Receiver'. Which pixels lie in
 shadow is known from the filter RadianceMap and the camera alone.
 """
-import sys
-
 import numpy
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -16,7 +14,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 
 from penumbra_testing import (
     PLAIN, SHADOWED, SPHERE_CENTER, SPHERE_RADIUS, Checks, bake, cell_array, find_pass, grid_points, image_bytes,
-    image_of_window, load_plugin, make_scene, make_view, output_path, picture)
+    image_of_window, make_scene, make_view, output_path, picture)
 
 # Pixels next to a silhouette mix two surfaces.
 SILHOUETTE = 2
@@ -387,10 +385,4 @@ def check_interaction():
 
 
 CASES = [value for name, value in list(globals().items()) if name.startswith("check_")]
-load_plugin()
-for case in CASES:
-    if len(sys.argv) < 2 or case.__name__ in sys.argv[1:]:
-        case()
-        simple.ResetSession()
-        load_plugin()
-checks.finish()
+checks.run(CASES)

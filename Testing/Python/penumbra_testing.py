@@ -57,6 +57,17 @@ class Checks:
     def at_least(self, found, limit, what):
         self.check(found >= limit, f"{what}: {found:.4g}, at least {limit:.4g}")
 
+    def run(self, cases):
+        """Calls each case, or those that the script's arguments name, with nothing left of the one before; then ends
+        the script."""
+        load_plugin()
+        for case in cases:
+            if len(sys.argv) < 2 or case.__name__ in sys.argv[1:]:
+                case()
+                simple.ResetSession()
+                load_plugin()
+        self.finish()
+
     def finish(self):
         print(f"{len(self.failed)} checks failed.", flush=True)
         sys.exit(1 if self.failed else 0)
