@@ -53,9 +53,11 @@ DirectionalLight DirectionalLight::ClippedToFront(const glm::dvec3&, const glm::
   return result;
 }
 
-double DirectionalLight::GetHeight(const glm::dvec3&, const glm::dvec3&) const
+LightHull DirectionalLight::GetHull() const
 {
-  return std::numeric_limits<double>::infinity();
+  return { this->Disk.IsValid() ? this->Disk.GetHull().Points
+                                : std::vector<glm::dvec3>{ this->Source },
+    true };
 }
 
 double DirectionalLight::FormFactor(const glm::dvec3&, const glm::dvec3& normal) const

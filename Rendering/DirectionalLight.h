@@ -36,7 +36,7 @@ public:
 
   bool IsValid() const override { return this->IsThere; }
   bool Faces(const glm::dvec3&) const override { return true; }
-  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  LightHull GetHull() const override;
   /// 1/pi of the cosine to the light's centre, unless the horizon cuts it.
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
   double GetMeasure() const override { return this->IsThere ? 1.0 : 0.0; }

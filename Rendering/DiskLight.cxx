@@ -194,10 +194,12 @@ bool DiskLight::Faces(const glm::dvec3& point) const
   return side > 0.0 || (side < 0.0 && this->TwoSided);
 }
 
-double DiskLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+LightHull DiskLight::GetHull() const
 {
-  const glm::dvec3 across = normal - glm::dot(normal, this->Normal) * this->Normal;
-  return glm::dot(this->Centre - point, normal) + this->Radius * glm::length(across);
+  // Around the circle, an octagon.
+  DiskLight around = *this;
+  around.Radius = this->Radius / std::cos(Pi / 8.0);
+  return { around.GetRim(8), false };
 }
 
 double DiskLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const

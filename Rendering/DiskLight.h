@@ -43,7 +43,7 @@ public:
 
   bool IsValid() const override { return this->GetMeasure() > 0.0; }
   bool Faces(const glm::dvec3& point) const override;
-  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  LightHull GetHull() const override;
 
   /**
    * Where x sees the whole disk, the textbook form (Howell, A Catalog of Radiation Heat Transfer

@@ -39,6 +39,13 @@ struct LightSample
 PENUMBRARENDERING_EXPORT double BoundSolidAngle(
   double area, const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver);
 
+/// Points, or directions to points at infinity, in world coordinates.
+struct LightHull
+{
+  std::vector<glm::dvec3> Points;
+  bool AreDirections = false;
+};
+
 /// How a sample's light depends on the direction d from the receiver to it, apart from the
 /// receiver's own cosine.
 enum class Emission
@@ -91,9 +98,8 @@ public:
   /// Whether light can leave towards the point.
   virtual bool Faces(const glm::dvec3& point) const = 0;
 
-  /// The height of the highest point over the plane through `point` with the unit `normal`, in
-  /// world units; infinite for a light at infinity.
-  virtual double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const = 0;
+  /// Points whose convex hull holds the light.
+  virtual LightHull GetHull() const = 0;
 
   /**
    * The unoccluded light at a point x with the unit normal `normal`: irradiance over pi, as a

@@ -27,13 +27,13 @@ PointLight PointLight::Transformed(const glm::dmat4& matrix) const
 PointLight PointLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const
 {
   PointLight result = *this;
-  result.IsThere = this->IsThere && this->GetHeight(point, normal) > 0.0;
+  result.IsThere = this->IsThere && glm::dot(this->Place - point, normal) > 0.0;
   return result;
 }
 
-double PointLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+LightHull PointLight::GetHull() const
 {
-  return glm::dot(this->Place - point, normal);
+  return { { this->Place }, false };
 }
 
 double PointLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const

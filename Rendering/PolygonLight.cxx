@@ -189,14 +189,9 @@ bool PolygonLight::Faces(const glm::dvec3& point) const
   return side > 0.0 || (side < 0.0 && this->TwoSided);
 }
 
-double PolygonLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+LightHull PolygonLight::GetHull() const
 {
-  double highest = 0.0;
-  for (const glm::dvec3& vertex : this->Vertices)
-  {
-    highest = std::max(highest, glm::dot(vertex - point, normal));
-  }
-  return highest;
+  return { this->Vertices, false };
 }
 
 double PolygonLight::GetSolidAngleBound(const penumbra::Parallelogram& receiver) const

@@ -56,7 +56,7 @@ public:
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
 
   bool Faces(const glm::dvec3& point) const override;
-  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  LightHull GetHull() const override;
   double GetMeasure() const override { return this->Area; }
   double GetSolidAngleBound(const penumbra::Parallelogram& receiver) const override;
   double GetAspect() const override;

@@ -48,9 +48,9 @@ bool SegmentLight::Faces(const glm::dvec3& point) const
   return glm::length(glm::cross(point - this->Begin, this->GetAxis())) > 0.0;
 }
 
-double SegmentLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+LightHull SegmentLight::GetHull() const
 {
-  return std::max(glm::dot(this->Begin - point, normal), glm::dot(this->End - point, normal));
+  return { { this->Begin, this->End }, false };
 }
 
 double SegmentLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const

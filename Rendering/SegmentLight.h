@@ -30,7 +30,7 @@ public:
 
   bool IsValid() const override { return this->GetMeasure() > 0.0; }
   bool Faces(const glm::dvec3& point) const override;
-  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  LightHull GetHull() const override;
   /// The integral of cos t sin(theta) / (pi r^2) along the segment, in closed form (Heitz and Hill
   /// 2017, "Linear-Light Shading with Linearly Transformed Cosines"); 1/m.
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;

@@ -129,14 +129,15 @@ bool SurfaceLight::Faces(const glm::dvec3& point) const
     [&](const PolygonLight& cell) { return cell.Faces(point); });
 }
 
-double SurfaceLight::GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const
+LightHull SurfaceLight::GetHull() const
 {
-  double highest = 0.0;
+  LightHull hull;
   for (const PolygonLight& cell : this->Cells)
   {
-    highest = std::max(highest, cell.GetHeight(point, normal));
+    const std::vector<glm::dvec3>& vertices = cell.GetVertices();
+    hull.Points.insert(hull.Points.end(), vertices.begin(), vertices.end());
   }
-  return highest;
+  return hull;
 }
 
 double SurfaceLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const

@@ -36,7 +36,7 @@ public:
 
   bool IsValid() const override { return !this->Cells.empty(); }
   bool Faces(const glm::dvec3& point) const override;
-  double GetHeight(const glm::dvec3& point, const glm::dvec3& normal) const override;
+  LightHull GetHull() const override;
   /// The mean of the components of Irradiance(), for a Radiance of 1.
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
   glm::dvec3 Irradiance(const glm::dvec3& x, const glm::dvec3& normal) const override;

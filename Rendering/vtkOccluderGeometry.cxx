@@ -11,7 +11,6 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
-#include <limits>
 
 vtkStandardNewMacro(vtkOccluderGeometry);
 
@@ -24,7 +23,7 @@ constexpr double RoundingsInContact = 4.0;
 
 /// Appends the surface's points in the receiver's frame.
 void AppendVertices(const penumbra::Surface& surface, const penumbra::ReceiverFrame& frame,
-  std::vector<glm::vec3>& vertices)
+  std::vector<glm::dvec3>& vertices)
 {
   const std::size_t first = vertices.size();
   vertices.resize(first + surface.Points.size());
@@ -33,7 +32,7 @@ void AppendVertices(const penumbra::Surface& surface, const penumbra::ReceiverFr
     {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
-        vertices[first + i] = glm::vec3(frame.ToFrame(surface.Points[i]));
+        vertices[first + i] = frame.ToFrame(surface.Points[i]);
       }
     });
 }
@@ -48,8 +47,8 @@ vtkOccluderGeometry::vtkOccluderGeometry()
 
 vtkOccluderGeometry::~vtkOccluderGeometry() = default;
 
-void vtkOccluderGeometry::Build(const penumbra::ShadowScene& scene,
-  const penumbra::Receiver& receiver, const penumbra::ReceiverFrame& frame, double maximumHeight)
+void vtkOccluderGeometry::SetReceiver(const penumbra::ShadowScene& scene,
+  const penumbra::Receiver& receiver, const penumbra::ReceiverFrame& frame)
 {
   double rounding = 0.0;
   for (const penumbra::Surface& surface : scene.Surfaces)
@@ -58,34 +57,79 @@ void vtkOccluderGeometry::Build(const penumbra::ShadowScene& scene,
   }
   this->ContactTolerance =
     std::max(SmallestContactTolerance, RoundingsInContact * rounding / frame.GetSize());
-  const auto low = static_cast<float>(this->ContactTolerance);
-  const auto high = static_cast<float>(maximumHeight);
 
-  std::vector<glm::vec3> vertices;
-  std::vector<std::uint32_t> indices;
+  this->Points.clear();
+  this->Triangles.clear();
   for (std::size_t s = 0; s < scene.Surfaces.size(); ++s)
   {
     const penumbra::Surface& surface = scene.Surfaces[s];
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    AppendVertices(surface, frame, vertices);
+    const auto first = static_cast<std::uint32_t>(this->Points.size());
+    AppendVertices(surface, frame, this->Points);
     for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
     {
       const auto& [a, b, c] = surface.Triangles[t];
       const bool isReceiver = s == receiver.Surface && surface.Regions[t] == receiver.Region;
-      const glm::vec3 h(vertices[first + a].z, vertices[first + b].z, vertices[first + c].z);
-      if (!isReceiver && std::max({ h.x, h.y, h.z }) > low && std::min({ h.x, h.y, h.z }) < high)
+      const double highest = std::max(
+        { this->Points[first + a].z, this->Points[first + b].z, this->Points[first + c].z });
+      if (!isReceiver && highest > this->ContactTolerance)
       {
-        indices.insert(indices.end(), { first + a, first + b, first + c });
+        this->Triangles.push_back({ first + a, first + b, first + c });
       }
     }
   }
-  this->IndexCount = indices.size();
-  if (!indices.empty())
+  this->ScenePoints = this->Points.size();
+}
+
+std::size_t vtkOccluderGeometry::Select(const penumbra::BlockingRegion& region)
+{
+  this->Points.resize(this->ScenePoints);
+  this->Selected.clear();
+  for (const Triangle& triangle : this->Triangles)
   {
-    this->Vertices->Upload(vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer);
-    this->Indices->Upload(
-      indices.data(), indices.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
+    const glm::dvec3 &a = this->Points[triangle[0]], &b = this->Points[triangle[1]],
+                     &c = this->Points[triangle[2]];
+    if (!region.MayHold(a, b, c))
+    {
+      continue;
+    }
+    if (region.IsFar(a) || region.IsFar(b) || region.IsFar(c))
+    {
+      this->AddClipped(triangle, region);
+    }
+    else
+    {
+      this->Selected.push_back(triangle);
+    }
   }
+  return this->Selected.size();
+}
+
+void vtkOccluderGeometry::AddClipped(
+  const Triangle& triangle, const penumbra::BlockingRegion& region)
+{
+  const std::vector<glm::dvec3> polygon =
+    region.Clip(this->Points[triangle[0]], this->Points[triangle[1]], this->Points[triangle[2]]);
+  const auto first = static_cast<std::uint32_t>(this->Points.size());
+  for (std::uint32_t i = 1; i + 1 < polygon.size(); ++i)
+  {
+    this->Selected.push_back({ first, first + i, first + i + 1 });
+  }
+  this->Points.insert(this->Points.end(), polygon.begin(), polygon.end());
+}
+
+void vtkOccluderGeometry::Upload()
+{
+  this->IndexCount = 3 * this->Selected.size();
+  if (this->IndexCount == 0)
+  {
+    return;
+  }
+  std::vector<glm::vec3> vertices(this->Points.size());
+  std::transform(this->Points.begin(), this->Points.end(), vertices.begin(),
+    [](const glm::dvec3& p) { return glm::vec3(p); });
+  this->Vertices->Upload(vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer);
+  this->Indices->Upload(
+    this->Selected.front().data(), this->IndexCount, vtkOpenGLBufferObject::ElementArrayBuffer);
 }
 
 void vtkOccluderGeometry::Draw(vtkShaderProgram* program, int instances)
@@ -110,6 +154,9 @@ void vtkOccluderGeometry::ReleaseGraphicsResources()
   this->Vertices->ReleaseGraphicsResources();
   this->Indices->ReleaseGraphicsResources();
   this->IndexCount = 0;
+  this->Points.clear();
+  this->Triangles.clear();
+  this->Selected.clear();
 }
 
 void vtkOccluderGeometry::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,16 +6,20 @@
  *
  * Points are brought into the receiver's frame in double precision before they become floats: what
  * is close to the receiver keeps its height to a relative precision of 1e-7, wherever in the world
- * it is. Triangles of the receiver itself are left out, as are those wholly below it or above all
- * lights.
+ * it is. Triangles of the receiver itself are left out, as are those wholly below it. For each
+ * light only those are taken that reach between it and the receiver (penumbra::BlockingRegion); of
+ * triangles that go far beyond, the part that does.
  */
 #ifndef vtkOccluderGeometry_h
 #define vtkOccluderGeometry_h
 
+#include "BlockingRegion.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ShadowScene.h"
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
+
+#include <vector> // for triangles
 
 class vtkOpenGLBufferObject;
 class vtkShaderProgram;
@@ -28,17 +32,26 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Select and upload the triangles for `receiver`, whose frame is `frame`. Only those reach
-   * between the receiver and its lights that have a point at h in (GetContactTolerance(),
-   * maximumHeight). Needs a current OpenGL context if any triangle is left.
+   * Bring the scene into the frame of `receiver`. Both are kept by reference.
    */
-  void Build(const penumbra::ShadowScene& scene, const penumbra::Receiver& receiver,
-    const penumbra::ReceiverFrame& frame, double maximumHeight);
+  void SetReceiver(const penumbra::ShadowScene& scene, const penumbra::Receiver& receiver,
+    const penumbra::ReceiverFrame& frame);
 
   /**
-   * How many triangles may block light.
+   * Select the triangles that have a point above GetContactTolerance() and within the region. The
+   * answer is how many there are.
    */
-  std::size_t GetNumberOfTriangles() const { return this->IndexCount / 3; }
+  std::size_t Select(const penumbra::BlockingRegion& region);
+
+  /**
+   * Upload the triangles that were selected last. Needs a current OpenGL context.
+   */
+  void Upload();
+
+  /**
+   * How many triangles were selected.
+   */
+  std::size_t GetNumberOfTriangles() const { return this->Selected.size(); }
 
   /**
    * The height, in units of the receiver's size, up to which surfaces count as lying in the
@@ -65,6 +78,14 @@ private:
   vtkOccluderGeometry(const vtkOccluderGeometry&) = delete;
   void operator=(const vtkOccluderGeometry&) = delete;
 
+  /// The corners of a triangle: indices into Points.
+  using Triangle = penumbra::Surface::Triangle;
+  void AddClipped(const Triangle& triangle, const penumbra::BlockingRegion& region);
+
+  std::vector<glm::dvec3> Points;  ///< of all surfaces, in the frame, then those that clipping made
+  std::size_t ScenePoints = 0;     ///< how many are the surfaces'
+  std::vector<Triangle> Triangles; ///< all that may block any light
+  std::vector<Triangle> Selected;
   vtkNew<vtkOpenGLBufferObject> Vertices;
   vtkNew<vtkOpenGLBufferObject> Indices;
   std::size_t IndexCount = 0;

@@ -43,22 +43,6 @@ std::vector<penumbra::Light> ClipLights(
   return seen;
 }
 
-/// The height of the highest light, in units of the receiver's size.
-double MaximumHeight(
-  const std::vector<penumbra::Light>& lights, const penumbra::ReceiverFrame& frame)
-{
-  double highest = 0.0;
-  for (const penumbra::Light& light : lights)
-  {
-    if (light->IsValid())
-    {
-      highest = std::max(
-        highest, light->GetHeight(frame.GetBase().Corner, frame.GetNormal()) / frame.GetSize());
-    }
-  }
-  return highest;
-}
-
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
 {
@@ -185,13 +169,14 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowSc
 
 bool vtkRadianceBaker::BakeLights(Job& job)
 {
-  this->Occluders->Build(job.Scene, job.Receiver, job.Frame, MaximumHeight(job.Lights, job.Frame));
-  job.Result.Triangles = this->Occluders->GetNumberOfTriangles();
+  this->Occluders->SetReceiver(job.Scene, job.Receiver, job.Frame);
   job.Result.LightSamples.assign(job.Lights.size(), 0);
   for (const penumbra::Light& light : job.Lights)
   {
-    job.Result.Effects.push_back(
-      penumbra::PlanEffect(job.Frame, *light, this->Occluders->GetNumberOfTriangles() > 0));
+    const std::size_t triangles =
+      light->IsValid() ? this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *light)) : 0;
+    job.Result.Triangles.push_back(triangles);
+    job.Result.Effects.push_back(penumbra::PlanEffect(job.Frame, *light, triangles > 0));
   }
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const bool hasTolerance = settings.ErrorTolerance > 0.0;
@@ -236,6 +221,8 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
     this->Resolver->ResolveUnblocked(job.Target, job.Region);
     return true;
   }
+  this->Occluders->Select(penumbra::BlockingRegion(job.Frame, seen));
+  this->Occluders->Upload();
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
   job.Result.LightSamples[light] = static_cast<int>(samples.size());
   return this->Resolver->SetSamples(samples) &&
@@ -329,6 +316,8 @@ bool vtkRadianceBaker::RefineLight(
   {
     return false;
   }
+  this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *job.Lights[light]));
+  this->Occluders->Upload();
   int previous = 0;
   for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
        count = std::min(2 * count, settings.MaximumLightSamples))

@@ -51,8 +51,8 @@ public:
     /// The property that decided how many samples were taken: "LightSamples",
     /// "SolidAnglePerSample", "ErrorTolerance" or "MaximumLightSamples".
     std::string StoppedBy;
-    /// Triangles that could block light.
-    std::size_t Triangles = 0;
+    /// Of each light: the triangles that could block it.
+    std::vector<std::size_t> Triangles;
     /// Bytes of masks and textures at their peak: while masks are there, mip levels are not.
     std::size_t PeakBytes = 0;
     /// Seconds until OpenGL had finished.
