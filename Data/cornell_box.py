@@ -3,15 +3,16 @@
 """The Cornell box, by its published geometry: Cornell University Program of Computer Graphics, Cornell Box Data,
 https://www.graphics.cornell.edu/online/box/data.html. Lengths are in mm, y points up, the camera looks along z.
 
-The box was measured, so it is not quite a box: the left wall's corners are 6.4 mm apart in x, and lie in no plane. Here it
-is two triangles, each a receiver of its own, along the diagonal that keeps the inside convex: walls never shadow each other.
+The box was measured, so it is not quite a box: the left wall's corners are 6.4 mm apart in x, and lie in no plane. Here
+it is two triangles, each a receiver of its own, along the diagonal that keeps the inside convex, so that walls never
+shadow each other.
 
 What is not the publication's:
 * Colours. It gives spectra; the rgb are those that renderers commonly put in their place (the scene of the Tungsten
   renderer, among others).
 * The light's radiance. It gives a spectrum without a unit (0 at 400 nm, 8.0 at 500 nm, 15.6 at 600 nm, 18.4 at 700 nm),
-  which is orange to the eye. Here it is the warm white that a photographer would make of it, bright enough for a picture
-  without the light that comes from walls.
+  which is orange to the eye. Here it is the warm white that a photographer would make of it, bright enough for a
+  picture without the light that comes from walls.
 * An ambient radiance, in place of that light: it has no shadow and no shape. 0 gives the direct light alone.
 """
 

@@ -8,9 +8,9 @@ CMU-CS-97-104, 1997, sections 5 and 6. The paper's models were never published; 
 | chess      | 6 142    | 3         | 32, on two lights                      | 200 000 | 5.5 s                     |
 | table      |          | 25        | walls and floor 7x7, top 3x3, legs 2x2 |         | 13 s                      |
 
-The paper leaves blanks: for 6 142 polygons the texels are here those of the first scene; for the table they are 256 along
-the longest edge, the paper's largest texture. All samples are jittered grids, as the paper's (section 3.7). Polygons are
-all that are drawn: receivers, occluders and lights.
+The paper leaves blanks: for 6 142 polygons the texels are here those of the first scene; for the table they are 256
+along the longest edge, the paper's largest texture. All samples are jittered grids, as the paper's (section 3.7).
+Polygons are all that are drawn: receivers, occluders and lights.
 """
 
 from types import SimpleNamespace
@@ -47,8 +47,9 @@ ROOK = [
     (17, 0), (17.5, 3), (17, 6), (14, 8.5), (13, 11), (11, 16), (9.5, 24), (8.8, 32), (8.5, 40), (12, 44), (12, 46),
     (9.8, 48), (13, 51), (13.2, 56), (13, 62), (11.5, 62.4), (9.5, 62), (9.5, 56), (5, 55.5), (0, 55.5)]
 PAWN = [
-    (15, 0), (15.4, 2.5), (15, 5), (12.5, 7), (11.5, 9), (9.5, 13), (7.5, 19), (6.3, 24), (5.8, 28), (9.5, 31), (9.5, 33),
-    (5.5, 34.5), (7.4, 37.5), (8.5, 41.5), (8.4, 44.5), (7.4, 47.5), (5.8, 49.8), (3.8, 51.3), (1.9, 51.9), (0, 52)]
+    (15, 0), (15.4, 2.5), (15, 5), (12.5, 7), (11.5, 9), (9.5, 13), (7.5, 19), (6.3, 24), (5.8, 28), (9.5, 31),
+    (9.5, 33), (5.5, 34.5), (7.4, 37.5), (8.5, 41.5), (8.4, 44.5), (7.4, 47.5), (5.8, 49.8), (3.8, 51.3),
+    (1.9, 51.9), (0, 52)]
 CHESS_SEGMENTS = 19
 CHESS_UNIT = 2.1
 SQUARE = 70  # mm; the board's 8 x 8 squares are as deep as the stage

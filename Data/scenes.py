@@ -36,8 +36,8 @@ def build(name):
 def sheet(name, columns, rows, coordinates):
     """columns x rows polygons over the unit square, bent: coordinates are expressions of coordsX and coordsY in [0, 1].
 
-    ParaView's own sources and filters, so that state files hold it. Points that fall together are merged: a sheet closes
-    at its seam, and a quad of which two corners are the same becomes a triangle."""
+    ParaView's own sources and filters, so that state files hold it. Points that fall together are merged: a sheet
+    closes at its seam, and a quad of which two corners are the same becomes a triangle."""
     plane = pv.Plane(
         registrationName=name + " sheet", Origin=[0, 0, 0], Point1=[1, 0, 0], Point2=[0, 1, 0], XResolution=columns,
         YResolution=rows)
@@ -133,9 +133,14 @@ def show(scene, shading="Radiance"):
     return view
 
 
-def bake(scene):
+def make_baker(scene):
+    """A filter that bake() can use again, so that shaders are compiled once."""
+    return pv.RadianceMap(Receivers=list(scene.receivers.values()), Lights=list(scene.lights.values()))
+
+
+def bake(scene, baker=None):
     """The baked receivers of each proxy: structured grids, in a dictionary of lists by the proxies' names."""
-    baker = pv.RadianceMap(Lights=list(scene.lights.values()))  # one for all: its shaders are compiled once
+    baker = baker or make_baker(scene)
     blocks = {}
     for name, receiver in scene.receivers.items():
         others = [other for key, other in scene.receivers.items() if key != name]
@@ -143,7 +148,6 @@ def bake(scene):
         baker.Occluders = others + list(scene.occluders.values())
         output = servermanager.Fetch(baker)
         blocks[name] = [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
-    pv.Delete(baker)
     return blocks
 
 

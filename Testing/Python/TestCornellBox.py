@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A check on something real: the direct light in the Cornell box, by its published geometry, against an integration that
-shares no code with the product."""
+"""A check on something real: the direct light in the Cornell box, by its published geometry, against an integration
+that shares no code with the product."""
 import sys
 
 import numpy
@@ -17,8 +17,8 @@ WALLS = ("Floor", "Back wall", "Right wall", "Left wall, back", "Left wall, fron
 CENTER = (278.0, 274.4, 279.6)
 TEXEL_SIZE = 10.0  # mm: some 55 x 56 texels a wall
 SAMPLES = 1024
-# Shares of a receiver's peak. The same pattern and n have had 5.3e-4 and 4.0e-3 on other scenes (three occluders, against
-# an exact answer); twice that is left for the shape of this one.
+# Shares of a receiver's peak. The same pattern and n have had 5.3e-4 and 4.0e-3 on other scenes (three occluders,
+# against an exact answer); twice that is left for the shape of this one.
 RMS_LIMIT = 1e-3
 MAXIMUM_LIMIT = 1e-2
 QUADRATURE_STEPS = 256
@@ -61,9 +61,9 @@ def exact_factors(name, points, blocks):
 def check_oracle(name, points, factors):
     """The exact answer against rays, at some points.
 
-    The outline of a block's shadow on the light is convex, so of a grid of steps x steps cells it passes through 4 steps
-    at most. Each is counted whole or not at all, which is off by half a cell in the mean, and there are two blocks: 4 of
-    each steps cells. The error in cells that no outline passes through is of the order of 1 / steps^2."""
+    The outline of a block's shadow on the light is convex, so of a grid of steps x steps cells it passes through 4
+    steps at most. Each is counted whole or not at all, off by half a cell in the mean, and there are two blocks: 4
+    steps cells of steps^2. The error in cells that no outline passes through is of the order of 1 / steps^2."""
     normal = unit_normal(cornell_box.SURFACES[name][0], CENTER)
     inside = numpy.argwhere(numpy.isfinite(factors))
     errors = [

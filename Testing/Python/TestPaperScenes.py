@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scenes of Data/heckbert_herf.py have the counts that Heckbert and Herf 1997, sections 5 and 6, give, and shadows on
-every receiver that they are about."""
+"""The scenes of Data/heckbert_herf.py have the counts that Heckbert and Herf 1997, sections 5 and 6, give, and shadows
+on all that is to receive them."""
 import sys
 
 from paraview import simple
 
-from penumbra_testing import Checks, cell_array, data_path, find_pass, load_plugin
+from penumbra_testing import Checks, cell_array, data_path, find_pass, load_plugin, output_path, picture
 
 sys.path.insert(0, data_path(""))
 
@@ -20,7 +20,7 @@ checks = Checks()
 
 
 def check_scene(name, receivers, samples, polygons=None, texels=None):
-    """samples: of all lights, on the receivers of each proxy that light reaches. What is None, the paper does not tell."""
+    """samples: of all lights, on those receivers of each proxy that light reaches. None: the paper does not tell."""
     scene = scenes.build(name)
     blocks = scenes.bake(scene)
     grids = [grid for group in blocks.values() for grid in group]
@@ -46,7 +46,23 @@ def check_multiplier():
     checks.equal(scenes.count_samples(grid), 32, "still-life: samples, times 4")
 
 
+def check_state():
+    """A state file holds a scene whole: its sources are ParaView's own."""
+    view = scenes.show(scenes.build("still-life"))
+    view.UseFXAA = 0  # a state file that is loaded switches it on
+    before = picture(view)
+    simple.SaveState(output_path("TestPaperScenes.pvsm"))
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(output_path("TestPaperScenes.pvsm"))
+    view = simple.GetActiveView()
+    view.UseFXAA = 0
+    checks.check((picture(view) == before).all(), "still-life: the same picture after its state is loaded")
+    checks.equal(scenes.count_polygons(view), 749, "still-life: polygons after its state is loaded")
+
+
 load_plugin()
+check_state()
 check_scene("still-life", 3, {key: 8 for key in STAGE}, polygons=749, texels=200000)
 check_scene("chess", 3, {key: 32 for key in STAGE}, polygons=6142, texels=200000)
 check_scene("table", 25, dict({key: 49 for key in STAGE}, **{"Table top": 9, "Table legs": 4}))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An oracle for rooms with convex blocks: how much of a light arrives at a point, by two integrations that share no code
-with the product nor with each other.
+"""An oracle for rooms with convex blocks: how much of a light arrives at a point, by two integrations that share no
+code with the product nor with each other.
 
 visible_form_factor() is exact but for rounding: it cuts from the light what each block hides, and sums Lambert's edge
 formula over the polygons that are left. quadrature() counts: it tests one ray for each of many points on the light.
