@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a room with soft shadows, and prints what it took: pvpython demo.py OUTPUT.png [SAMPLES].
+"""Draws a scene with soft shadows, and prints what it took: pvpython demo.py OUTPUT.png [NAME [MULTIPLIER]].
 
+NAME is one of Data/scenes.py, room if there is none; MULTIPLIER a factor of the samples that the scene asks for.
 Plugin/demo.sh calls it. The folder of the built plugin is PENUMBRA_BUILD_DIR, or build/ at the top level."""
 
 import os
@@ -9,10 +10,11 @@ import sys
 from pathlib import Path
 
 import paraview.simple as pv
-from paraview import servermanager
 
 SOURCE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(SOURCE / "Data"))
+
+import scenes  # from Data
 
 
 def load_plugin():
@@ -23,40 +25,53 @@ def load_plugin():
     pv.LoadPlugin(str(plugins[0]), ns=vars(pv))
 
 
-def print_figures(scene):
+def print_figures(scene, view):
     """Bakes the same receivers as data, to tell the samples, texels, seconds and error of each."""
-    baked = pv.RadianceMap(
-        Receivers=list(scene.receivers.values()), Occluders=scene.occluders, Lights=scene.lights)
-    blocks = servermanager.Fetch(baked)
-    print(f"{'receiver':12} {'samples':>8} {'texels':>10} {'seconds':>8}  error estimate, of the peak")
-    names = list(scene.receivers)
-    for i in range(blocks.GetNumberOfBlocks()):
-        name = names[min(i, len(names) - 1)]  # the last one, a box, has a block for each face
-        grid = blocks.GetBlock(i)
-        cells, fields = grid.GetCellData(), grid.GetFieldData()
-        samples = sum(fields.GetArray("LightSamples").GetValue(k)
-                      for k in range(fields.GetArray("LightSamples").GetNumberOfTuples()))
-        errors = cells.GetArray("ErrorEstimate")
-        mean_square = sum(errors.GetValue(k) ** 2 for k in range(errors.GetNumberOfTuples()))
-        mean_square /= errors.GetNumberOfTuples()
-        peak = max(cells.GetArray("Radiance").GetRange(c)[1] for c in range(3))
-        print(f"{name:12} {samples:8d} {grid.GetNumberOfCells():10d} "
-              f"{fields.GetArray('BakeSeconds').GetValue(0):8.3f}  "
-              f"RMS {mean_square ** 0.5 / peak:.1e}, maximum {errors.GetRange()[1] / peak:.1e}")
+    print(f"{scenes.count_polygons(view)} polygons")
+    print(f"{'receiver':16} {'of them':>8} {'samples':>8} {'texels':>10} {'seconds':>8}  error estimate, of the peak")
+    for name, grids in scenes.bake(scene).items():
+        print(
+            f"{name:16} {len(grids):8d} {max(map(scenes.count_samples, grids)):8d} "
+            f"{sum(grid.GetNumberOfCells() for grid in grids):10d} {sum(map(scenes.get_seconds, grids)):8.3f}  "
+            + describe_error(grids))
 
 
-def main(output, samples=256):
+def describe_error(grids):
+    """The error estimates of a proxy's receivers, of the highest radiance on any of them."""
+    errors = [grid.GetCellData().GetArray("ErrorEstimate") for grid in grids]
+    texels = sum(array.GetNumberOfTuples() for array in errors)
+    squares = sum(array.GetValue(k) ** 2 for array in errors for k in range(array.GetNumberOfTuples()))
+    peak = max(grid.GetCellData().GetArray("Radiance").GetRange(c)[1] for grid in grids for c in range(3))
+    largest = max(array.GetRange()[1] for array in errors)
+    if peak == 0:
+        return "no light"
+    return f"RMS {(squares / texels) ** 0.5 / peak:.1e}, maximum {largest / peak:.1e}"
+
+
+def parse_multiplier(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        sys.exit(f"Penumbra: the multiplier {text} is not a number greater than 0.")
+    return value
+
+
+def main(output, name="room", multiplier="1"):
+    if name not in scenes.NAMES:
+        sys.exit(f"Penumbra: there is no scene {name}; there are {', '.join(scenes.NAMES)}.")
+    factor = parse_multiplier(multiplier)
     load_plugin()
-    import room
-
-    scene = room.build(samples=int(samples))
-    view = room.show(scene)
+    scene = scenes.build(name)
+    scenes.multiply_samples(scene, factor)
+    view = scenes.show(scene)
     pv.SaveScreenshot(output, view)
-    print_figures(scene)
+    print_figures(scene, view)
     print(output)
 
 
 if __name__ == "__main__":
-    if not 2 <= len(sys.argv) <= 3:
+    if not 2 <= len(sys.argv) <= 4:
         sys.exit(__doc__)
     main(*sys.argv[1:])

@@ -78,6 +78,7 @@ bool vtkRadianceTexture::PlaceRegions(const std::vector<glm::ivec2>& sizes, int 
   this->Regions.assign(sizes.size(), Region());
   glm::ivec2 place(0);
   int shelf = 0;
+  int used = 0; // a single receiver fills its texture: vtkSoftShadowFS.glsl relies on it
   for (const std::size_t i : order)
   {
     const glm::ivec2 padded = sizes[i] + 2 * this->Gutter;
@@ -88,9 +89,10 @@ bool vtkRadianceTexture::PlaceRegions(const std::vector<glm::ivec2>& sizes, int 
     }
     this->Regions[i] = { place + this->Gutter, sizes[i] };
     place.x += padded.x;
+    used = std::max(used, place.x);
     shelf = std::max(shelf, padded.y);
   }
-  this->Size = { width, place.y + shelf };
+  this->Size = { used, place.y + shelf };
   return this->Size.x <= largestSide && this->Size.y <= largestSide;
 }
 
