@@ -184,7 +184,7 @@ BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* windo
   loop.Bake(scene, 0, window, LiteralLoop::Estimator::Ratio);
   Compare(
     texture->Download(texture->GetRegions().front()).Irradiance, loop.GetIrradiance(), result);
-  result.Triangles = reports.front().Triangles;
+  result.Triangles = reports.front().Triangles.front();
   result.PeakBytesPerTexel = static_cast<double>(reports.front().PeakBytes) / texels;
   result.ShownBytesPerTexel = static_cast<double>(texture->GetBytes()) / texels;
   result.AllowedBytesPerTexel = reports.front().LightSamples.front() / 8.0 + 24.0;
