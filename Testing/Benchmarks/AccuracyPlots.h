@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * The pictures of the accuracy study.
+ */
+#ifndef AccuracyPlots_h
+#define AccuracyPlots_h
+
+#include "AccuracyCurves.h"
+
+#include <string>
+#include <vector>
+
+/// A scene's name in the measurements, and what people read.
+struct SceneTitle
+{
+  std::string Name, Title;
+};
+
+/// Error against time, a chart a scene, with the Pareto front.
+bool PlotErrorAgainstTime(
+  const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements);
+
+/// Error against n with fitted power laws, a chart a scene.
+bool PlotErrorAgainstSamples(const std::string& path, const std::vector<SceneTitle>& scenes,
+  const Measurements& measurements, int fewestFitted);
+
+/// Error against the size of texels, a row a truth, a column a scene.
+bool PlotErrorAgainstTexels(
+  const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements);
+
+#endif
