@@ -55,7 +55,7 @@ struct PowerLaw
 };
 
 /// Least squares of log(RMS) against log(n), over the measurements with n >= `fewest`.
-PowerLaw FitRootMeanSquare(const Measurements& curve, int fewest);
+PowerLaw FitRootMeanSquare(const Measurements& curve, int fewest = 1);
 
 /// The seconds at which a curve (in the order of n) first comes down to an RMS, interpolated in
 /// log-log; nothing if it never does.

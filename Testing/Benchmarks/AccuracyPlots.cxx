@@ -5,6 +5,9 @@
 
 #include "ChartPage.h"
 
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPNGWriter.h"
 #include "vtkPen.h"
 #include "vtkPlotPoints.h"
 
@@ -43,10 +46,8 @@ const std::vector<Maker>& GetMakers()
     { MasksName, "Jittered Grid", "masks, jittered grid", { Green, vtkPlotPoints::DIAMOND } },
     { MasksName, "Correlated Multi-Jittered", "masks, multi-jittered",
       { Orange, vtkPlotPoints::SQUARE } },
-    { LiteralName, "", "literal loop, Sobol",
-      { Vermilion, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE } },
-    { RaysName, "", "Embree, a Sobol set a texel",
-      { Black, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE } },
+    { LiteralName, "", "H&H loop, Sobol", { Vermilion, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE } },
+    { RaysName, "", "Embree rays, Sobol", { Black, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE } },
     { MasksName, "Sobol", "masks, Sobol",
       { Blue, vtkPlotPoints::CIRCLE, vtkPen::SOLID_LINE, 3.0f } },
   };
@@ -84,17 +85,34 @@ double GetSamples(const Measurement& m)
   return m.Samples;
 }
 
+double GetTexelSize(const Measurement& m)
+{
+  return 1.0 / m.Texels;
+}
+
 double GetRootMeanSquare(const Measurement& m)
 {
   return m.RootMeanSquare;
 }
 
-/// Powers of ten around all values.
-std::array<double, 2> GetDecades(const std::vector<double>& values)
+/// The range of the values and some decades more below and above, for what is drawn there.
+std::array<double, 2> GetRange(const std::vector<double>& values, double below, double above)
 {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  return { std::pow(10.0, std::floor(std::log10(*least))),
-    std::pow(10.0, std::ceil(std::log10(*greatest))) };
+  return { *least * std::pow(10.0, -below), *greatest * std::pow(10.0, above) };
+}
+
+// Decades: an axis's ends, and the legend's place above errors.
+constexpr double AxisEnd = 0.15;
+constexpr double LegendPlace = 0.6;
+
+/// A chart of the errors in `shown` with nothing in it yet.
+Chart MakeChart(const std::string& title, const std::string& xTitle, const Measurements& shown,
+  double (*getX)(const Measurement&))
+{
+  return { title, xTitle, "RMS error, share of the peak",
+    GetRange(GetColumn(shown, getX), AxisEnd, AxisEnd),
+    GetRange(GetColumn(shown, GetRootMeanSquare), AxisEnd, LegendPlace), {}, {} };
 }
 
 std::string Format(const char* format, double value)
@@ -103,8 +121,6 @@ std::string Format(const char* format, double value)
   std::snprintf(text, sizeof(text), format, value);
   return text;
 }
-
-constexpr const char* ErrorTitle = "RMS error, share of the peak";
 
 } // namespace
 
@@ -116,11 +132,10 @@ bool PlotErrorAgainstTime(
   {
     const Measurements all =
       Select(measurements, [&](const Measurement& m) { return m.Scene == scene.Name; });
-    Chart chart{ scene.Title, "seconds from geometry to texels", ErrorTitle,
-      GetDecades(GetColumn(all, GetSeconds)), GetDecades(GetColumn(all, GetRootMeanSquare)), {} };
+    Chart chart = MakeChart(scene.Title, "seconds from geometry to texels", all, GetSeconds);
     const Measurements front = GetParetoFront(all);
     chart.Curves.push_back(
-      { "Pareto front", { Yellow, vtkPlotPoints::NONE, vtkPen::SOLID_LINE, 14.0f },
+      { "Pareto front", { Yellow, vtkPlotPoints::NONE, vtkPen::SOLID_LINE, 10.0f },
         GetColumn(front, GetSeconds), GetColumn(front, GetRootMeanSquare) });
     for (const Maker& maker : GetMakers())
     {
@@ -133,16 +148,19 @@ bool PlotErrorAgainstTime(
   return page.Write(path);
 }
 
-bool PlotErrorAgainstSamples(const std::string& path, const std::vector<SceneTitle>& scenes,
-  const Measurements& measurements, int fewestFitted)
+bool PlotErrorAgainstSamples(
+  const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements)
 {
   ChartPage page(2);
   for (const SceneTitle& scene : scenes)
   {
     const Measurements all =
       Select(measurements, [&](const Measurement& m) { return m.Scene == scene.Name; });
-    Chart chart{ scene.Title, "n, samples of the light", ErrorTitle,
-      GetDecades(GetColumn(all, GetSamples)), GetDecades(GetColumn(all, GetRootMeanSquare)), {} };
+    Chart chart = MakeChart(scene.Title, "n, samples of the light", all, GetSamples);
+    for (int n = 1; n <= all.back().Samples; n *= 4)
+    {
+      chart.XTicks.emplace_back(n, std::to_string(n));
+    }
     for (const Maker& maker : GetMakers())
     {
       const Measurements curve = SelectMaker(measurements, scene.Name, maker);
@@ -150,8 +168,8 @@ bool PlotErrorAgainstSamples(const std::string& path, const std::vector<SceneTit
       {
         continue;
       }
-      const PowerLaw law = FitRootMeanSquare(curve, fewestFitted);
-      const double first = fewestFitted, last = curve.back().Samples;
+      const PowerLaw law = FitRootMeanSquare(curve);
+      const double first = curve.front().Samples, last = curve.back().Samples;
       CurveStyle line = maker.Style;
       line.Marker = vtkPlotPoints::NONE;
       CurveStyle points = maker.Style;
@@ -174,25 +192,60 @@ bool PlotErrorAgainstTexels(
     { 1, { Vermilion, vtkPlotPoints::SQUARE } }, { 2, { Green, vtkPlotPoints::DIAMOND } },
     { 4, { Blue, vtkPlotPoints::CIRCLE } }
   };
+  std::set<int> sizes;
+  for (const Measurement& m : measurements)
+  {
+    sizes.insert(m.Texels);
+  }
   ChartPage page(static_cast<int>(scenes.size()));
   for (const std::string truth : { AreaTruth, CentreTruth })
   {
     for (const SceneTitle& scene : scenes)
     {
-      Chart chart{ scene.Title +
-          (truth == AreaTruth ? ", against the texel's average" : ", against the texel's centre"),
-        "texel size, share of the floor's edge", ErrorTitle, { 1e-3, 1e-1 }, { 1e-4, 1.0 }, {} };
+      Chart chart = MakeChart(scene.Title +
+          (truth == AreaTruth ? ", against texels' averages" : ", against texels' centres"),
+        "texel size, floor's edge = 1", measurements, GetTexelSize);
+      for (const int texels : sizes)
+      {
+        chart.XTicks.emplace_back(1.0 / texels, "1/" + std::to_string(texels));
+      }
       for (const auto& [supersampling, style] : supersamplings)
       {
         const Measurements curve = Select(measurements,
           [&, s = supersampling](const Measurement& m)
           { return m.Scene == scene.Name && m.Truth == truth && m.Supersampling == s; });
         chart.Curves.push_back({ "Supersampling " + std::to_string(supersampling), style,
-          GetColumn(curve, [](const Measurement& m) { return 1.0 / m.Texels; }),
-          GetColumn(curve, GetRootMeanSquare) });
+          GetColumn(curve, GetTexelSize), GetColumn(curve, GetRootMeanSquare) });
       }
       page.Add(chart);
     }
   }
   return page.Write(path);
+}
+
+bool PictureScenes(const std::string& path, const std::vector<std::vector<double>>& images)
+{
+  const auto texels =
+    static_cast<int>(std::lround(std::sqrt(static_cast<double>(images.front().size()))));
+  vtkNew<vtkImageData> picture;
+  picture->SetDimensions(texels * static_cast<int>(images.size()), texels, 1);
+  picture->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  for (std::size_t image = 0; image < images.size(); ++image)
+  {
+    const double peak = *std::max_element(images[image].begin(), images[image].end());
+    for (int j = 0; j < texels; ++j)
+    {
+      for (int i = 0; i < texels; ++i)
+      {
+        const double share = images[image][static_cast<std::size_t>(j * texels + i)] / peak;
+        picture->SetScalarComponentFromDouble(static_cast<int>(image) * texels + i, j, 0, 0,
+          std::round(255.0 * std::pow(share, 1.0 / 2.2)));
+      }
+    }
+  }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(picture);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  return writer->GetErrorCode() == 0;
 }

@@ -23,11 +23,15 @@ bool PlotErrorAgainstTime(
   const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements);
 
 /// Error against n with fitted power laws, a chart a scene.
-bool PlotErrorAgainstSamples(const std::string& path, const std::vector<SceneTitle>& scenes,
-  const Measurements& measurements, int fewestFitted);
+bool PlotErrorAgainstSamples(
+  const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements);
 
 /// Error against the size of texels, a row a truth, a column a scene.
 bool PlotErrorAgainstTexels(
   const std::string& path, const std::vector<SceneTitle>& scenes, const Measurements& measurements);
+
+/// The exact images of scenes, squares of the same number of texels, in a row: the peak of each is
+/// white, and what is dark is raised by a gamma of 2.2, as on the screen.
+bool PictureScenes(const std::string& path, const std::vector<std::vector<double>>& images);
 
 #endif

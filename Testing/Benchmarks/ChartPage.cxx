@@ -15,9 +15,13 @@
 #include "vtkPlotLine.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTextProperty.h"
 #include "vtkWindowToImageFilter.h"
+
+#include <cmath>
+#include <cstdio>
 
 namespace
 {
@@ -25,16 +29,52 @@ namespace
 // Pixels.
 constexpr int ChartWidth = 720;
 constexpr int ChartHeight = 560;
+constexpr int Margin = 12;
 constexpr int TitleSize = 20;
 constexpr int TextSize = 16;
 constexpr float MarkerSize = 9.0f;
 
-void StyleAxis(vtkAxis* axis, const std::string& title, const std::array<double, 2>& range)
+using Ticks = std::vector<std::pair<double, std::string>>;
+
+/// Every decade, 2 and 5 times as much; all of them labelled, or only the decades.
+Ticks MakeTicks(const std::array<double, 2>& range, bool labelsAll)
+{
+  Ticks ticks;
+  const int first = static_cast<int>(std::floor(std::log10(range[0])));
+  const int last = static_cast<int>(std::ceil(std::log10(range[1])));
+  for (int exponent = first; exponent <= last; ++exponent)
+  {
+    for (const double factor : { 1.0, 2.0, 5.0 })
+    {
+      const double value = factor * std::pow(10.0, exponent);
+      char label[32];
+      std::snprintf(label, sizeof(label), "%g", value);
+      ticks.emplace_back(value, labelsAll || factor == 1.0 ? label : "");
+    }
+  }
+  return ticks;
+}
+
+void SetTicks(vtkAxis* axis, const Ticks& ticks)
+{
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const auto& [value, label] : ticks)
+  {
+    positions->InsertNextValue(std::log10(value));
+    labels->InsertNextValue(label);
+  }
+  axis->SetCustomTickPositions(positions, labels);
+}
+
+void StyleAxis(
+  vtkAxis* axis, const std::string& title, const std::array<double, 2>& range, const Ticks& ticks)
 {
   axis->SetTitle(title);
   axis->SetLogScale(true);
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetUnscaledRange(range[0], range[1]);
+  SetTicks(axis, ticks);
   axis->GetTitleProperties()->SetFontSize(TextSize);
   axis->GetTitleProperties()->SetBold(0);
   axis->GetLabelProperties()->SetFontSize(TextSize);
@@ -73,8 +113,10 @@ void AddChart(vtkContextScene* scene, const Chart& chart, const vtkRectf& place)
   item->SetSize(place);
   item->SetTitle(chart.Title);
   item->GetTitleProperties()->SetFontSize(TitleSize);
-  StyleAxis(item->GetAxis(vtkAxis::BOTTOM), chart.XTitle, chart.XRange);
-  StyleAxis(item->GetAxis(vtkAxis::LEFT), chart.YTitle, chart.YRange);
+  StyleAxis(item->GetAxis(vtkAxis::BOTTOM), chart.XTitle, chart.XRange,
+    chart.XTicks.empty() ? MakeTicks(chart.XRange, false) : chart.XTicks);
+  StyleAxis(
+    item->GetAxis(vtkAxis::LEFT), chart.YTitle, chart.YRange, MakeTicks(chart.YRange, true));
   for (const Curve& curve : chart.Curves)
   {
     if (!curve.X.empty())
@@ -99,15 +141,17 @@ bool ChartPage::Write(const std::string& path) const
   {
     const int row = static_cast<int>(i) / this->Columns,
               column = static_cast<int>(i) % this->Columns;
-    const auto left = static_cast<float>(ChartWidth * column);
-    const auto bottom = static_cast<float>(ChartHeight * (rows - 1 - row));
-    AddChart(actor->GetScene(), this->Charts[i], { left, bottom, ChartWidth, ChartHeight });
+    const auto left = static_cast<float>(ChartWidth * column + Margin);
+    const auto bottom = static_cast<float>(ChartHeight * (rows - 1 - row) + Margin);
+    AddChart(actor->GetScene(), this->Charts[i],
+      { left, bottom, ChartWidth - 2 * Margin, ChartHeight - 2 * Margin });
   }
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1.0, 1.0, 1.0);
   renderer->AddActor(actor);
   actor->GetScene()->SetRenderer(renderer);
   vtkNew<vtkRenderWindow> window;
+  window->SetMultiSamples(0); // text comes out doubled with more
   window->SetSize(ChartWidth * this->Columns, ChartHeight * rows);
   window->AddRenderer(renderer);
   window->Render();

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// How a curve is drawn.
@@ -29,11 +30,13 @@ struct Curve
   std::vector<double> X, Y; ///< positive; a curve with none is not drawn
 };
 
-/// A chart; the first curve is drawn first.
+/// A chart; the first curve is drawn first. The legend is at the top right.
 struct Chart
 {
   std::string Title, XTitle, YTitle;
   std::array<double, 2> XRange, YRange;
+  /// Where the x axis is labelled, and with what; if empty, at every decade.
+  std::vector<std::pair<double, std::string>> XTicks;
   std::vector<Curve> Curves;
 };
 

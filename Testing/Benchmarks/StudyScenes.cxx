@@ -36,11 +36,9 @@ StudyScene MakeScene(
   return scene;
 }
 
-/// A box turned about the vertical axis through the origin.
-void AddTurnedBox(TestScene& scene, const glm::dvec3& low, const glm::dvec3& high, double angle)
+/// Adds occluders turned about the vertical axis through the origin by an angle in radians.
+void AddTurned(TestScene& scene, const TestScene& occluders, double angle)
 {
-  TestScene box;
-  box.AddBox(low, high);
   const long double c = std::cos(angle), s = std::sin(angle);
   const auto turn = [&](const oracle::Vec3& v)
   {
@@ -48,7 +46,7 @@ void AddTurnedBox(TestScene& scene, const glm::dvec3& low, const glm::dvec3& hig
     return oracle::Vec3{ static_cast<double>(c * v.X - s * v.Y),
       static_cast<double>(s * v.X + c * v.Y), v.Z };
   };
-  for (const oracle::Triangle& t : box.Occluders)
+  for (const oracle::Triangle& t : occluders.Occluders)
   {
     scene.Occluders.push_back({ turn(t.A), turn(t.B), turn(t.C) });
   }
@@ -145,7 +143,9 @@ StudyScene MakeContactScene()
 {
   StudyScene scene = MakeScene(
     "contact", "Contact: a box on the floor", MakeLight({ -0.9, 0.7, 3.0 }, 0.24, 0.2, 0.4));
-  AddTurnedBox(scene.Exact, { -0.5, -0.4, 0.0 }, { 0.4, 0.5, 0.8 }, 0.13);
+  TestScene box;
+  box.AddBox({ -0.5, -0.4, 0.0 }, { 0.4, 0.5, 0.8 });
+  AddTurned(scene.Exact, box, 0.13);
   scene.Baked = scene.Exact.MakeScene();
   return scene;
 }
@@ -154,14 +154,16 @@ StudyScene MakePenumbraScene()
 {
   StudyScene scene = MakeScene(
     "penumbra", "Penumbra: a table, a wide light", MakeLight({ 0.3, 0.2, 2.2 }, 1.4, 1.2, 0.4));
-  AddTurnedBox(scene.Exact, { -0.8, -0.6, 0.70 }, { 0.8, 0.6, 0.76 }, -0.21);
+  TestScene table;
+  table.AddBox({ -0.8, -0.6, 0.70 }, { 0.8, 0.6, 0.76 });
   for (const double x : { -0.76, 0.70 })
   {
     for (const double y : { -0.56, 0.50 })
     {
-      AddTurnedBox(scene.Exact, { x, y, 0.0 }, { x + 0.06, y + 0.06, 0.70 }, -0.21);
+      table.AddBox({ x, y, 0.0 }, { x + 0.06, y + 0.06, 0.70 });
     }
   }
+  AddTurned(scene.Exact, table, -0.21);
   scene.Baked = scene.Exact.MakeScene();
   return scene;
 }
@@ -169,19 +171,20 @@ StudyScene MakePenumbraScene()
 StudyScene MakeOverlapScene()
 {
   constexpr int Layers = 4, Slats = 12;
-  constexpr double Pitch = 0.22, Width = 0.08, Thickness = 0.03, HalfLength = 1.3;
+  constexpr double Pitch = 0.22, Width = 0.08, Length = 2.6;
   StudyScene scene = MakeScene(
     "overlap", "Overlap: a lattice of 48 slats", MakeLight({ 0.2, -0.1, 3.0 }, 1.0, 0.8, 0.4));
   for (int layer = 0; layer < Layers; ++layer)
   {
-    const double z = 0.4 + 0.25 * layer;
+    TestScene slats;
     for (int slat = 0; slat < Slats; ++slat)
     {
       const double x = Pitch * (slat - 0.5 * (Slats - 1)) - 0.5 * Width;
-      // A quarter turn and a little from each layer to the next.
-      AddTurnedBox(scene.Exact, { x, -HalfLength, z }, { x + Width, HalfLength, z + Thickness },
-        0.09 + (0.5 * std::acos(-1.0) + 0.17) * layer);
+      slats.AddPlate(
+        { x, -0.5 * Length, 0.4 + 0.25 * layer }, { Width, 0.0, 0.0 }, { 0.0, Length, 0.0 });
     }
+    // A quarter turn and a little from each layer to the next.
+    AddTurned(scene.Exact, slats, 0.09 + (0.5 * std::acos(-1.0) + 0.17) * layer);
   }
   scene.Baked = scene.Exact.MakeScene();
   return scene;
