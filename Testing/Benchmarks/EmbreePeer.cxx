@@ -15,6 +15,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <thread>
 
 #if defined(__SSE__)
@@ -24,8 +25,7 @@
 namespace
 {
 
-constexpr int TileEdge = 4;
-constexpr int Lanes = TileEdge * TileEdge;
+constexpr int Lanes = 16;
 
 // Rays leave the receiver at this share of their length, some 100 times the rounding of a float.
 constexpr float RayStart = 1e-5f;
@@ -40,6 +40,22 @@ struct alignas(64) Packet
 /// Sobol's first two dimensions with their bits in reverse: the first bit after the point is bit 0.
 using SobolPoint = std::array<std::uint32_t, 2>;
 
+/// Whether a point comes first along Morton's curve, which goes through one half of the square
+/// before the other, and so on in each half.
+bool IsBefore(const SobolPoint& a, const SobolPoint& b)
+{
+  const std::uint32_t x = a[0] ^ b[0], y = a[1] ^ b[1];
+  // The lowest bit that differs decides; of the two of a level, that of x.
+  const std::uint32_t lowestX = x & (0u - x), lowestY = y & (0u - y);
+  const bool byX = lowestX != 0 && (lowestY == 0 || lowestX <= lowestY);
+  return byX ? (b[0] & lowestX) != 0 : (b[1] & lowestY) != 0;
+}
+
+/**
+ * The first points of the sequence along Morton's curve: any 16 in turn (or another power of two)
+ * are those of one dyadic cell. An Owen scramble exchanges such cells and keeps their points
+ * together, so that rays to them stay coherent.
+ */
 std::vector<SobolPoint> MakeSobolPoints(int count)
 {
   std::vector<SobolPoint> points;
@@ -54,6 +70,7 @@ std::vector<SobolPoint> MakeSobolPoints(int count)
     }
     points.push_back({ index, second });
   }
+  std::sort(points.begin(), points.end(), IsBefore);
   return points;
 }
 
@@ -103,7 +120,59 @@ double GetFormFactor(
   return std::abs(sum) / (2.0 * std::acos(-1.0));
 }
 
-/// What rays cost: the packet's texels, and sums over their samples.
+/// How lanes are shared out: to some neighbouring texels, with some samples of each at a time.
+struct Packing
+{
+  int Samples = Lanes;
+  glm::ivec2 Texels{ 1 };
+
+  /// As many samples as there are: rays from one texel to points that are close together on the
+  /// light stay together.
+  explicit Packing(int samples)
+  {
+    while (this->Samples > samples)
+    {
+      // The tile grows to a square in turns.
+      this->Samples /= 2;
+      (this->Texels.x > this->Texels.y ? this->Texels.y : this->Texels.x) *= 2;
+    }
+  }
+
+  glm::ivec2 GetTexel(const glm::ivec2& first, int lane) const
+  {
+    const int texel = lane / this->Samples;
+    return first + glm::ivec2(texel % this->Texels.x, texel / this->Texels.x);
+  }
+};
+
+/// Samples lane by lane, the same of each texel.
+struct SamplePacket
+{
+  Packet<std::uint32_t> X, Y;
+  Packet<int> Valid;
+};
+
+std::vector<SamplePacket> MakeSamplePackets(
+  const std::vector<SobolPoint>& points, const Packing& packing)
+{
+  const int count = static_cast<int>(points.size());
+  std::vector<SamplePacket> packets;
+  for (int first = 0; first < count; first += packing.Samples)
+  {
+    SamplePacket& packet = packets.emplace_back();
+    for (int i = 0; i < Lanes; ++i)
+    {
+      const int sample = first + i % packing.Samples;
+      const SobolPoint& point = points[static_cast<std::size_t>(std::min(sample, count - 1))];
+      packet.X.Lane[i] = point[0];
+      packet.Y.Lane[i] = point[1];
+      packet.Valid.Lane[i] = sample < count ? -1 : 0;
+    }
+  }
+  return packets;
+}
+
+/// The texels of a packet, lane by lane, and sums over their samples.
 struct Tile
 {
   Packet<float> X, Y, Z; ///< of the texels' centres, relative to the receiver's corner
@@ -119,13 +188,13 @@ struct Scene
   glm::vec3 LightCorner, LightX, LightY, LightNormal, Normal;
 };
 
-/// From the texels to one point on the light each.
-void AimRays(const Scene& scene, const Tile& tile, const SobolPoint& point, RTCRay16& rays)
+/// From the texels to points on the light, a point a lane.
+void AimRays(const Scene& scene, const Tile& tile, const SamplePacket& samples, RTCRay16& rays)
 {
   for (int i = 0; i < Lanes; ++i)
   {
-    const float a = Scramble(point[0], tile.SeedX.Lane[i]);
-    const float b = Scramble(point[1], tile.SeedY.Lane[i]);
+    const float a = Scramble(samples.X.Lane[i], tile.SeedX.Lane[i]);
+    const float b = Scramble(samples.Y.Lane[i], tile.SeedY.Lane[i]);
     rays.org_x[i] = tile.X.Lane[i];
     rays.org_y[i] = tile.Y.Lane[i];
     rays.org_z[i] = tile.Z.Lane[i];
@@ -142,7 +211,7 @@ void AimRays(const Scene& scene, const Tile& tile, const SobolPoint& point, RTCR
 }
 
 /// cos t cos t' / r^2 of each ray; constants cancel in the ratio.
-void AddWeights(const Scene& scene, const RTCRay16& rays, Tile& tile)
+void AddWeights(const Scene& scene, const RTCRay16& rays, const Packet<int>& valid, Tile& tile)
 {
   for (int i = 0; i < Lanes; ++i)
   {
@@ -151,14 +220,14 @@ void AddWeights(const Scene& scene, const RTCRay16& rays, Tile& tile)
     const float cosine = x * scene.Normal.x + y * scene.Normal.y + z * scene.Normal.z;
     const float lightCosine =
       -(x * scene.LightNormal.x + y * scene.LightNormal.y + z * scene.LightNormal.z);
-    const float weight = cosine * lightCosine / (square * square);
+    const float weight = valid.Lane[i] ? cosine * lightCosine / (square * square) : 0.0f;
     tile.Sum.Lane[i] += weight;
     // Embree sets tfar to minus infinity where something is hit.
     tile.Visible.Lane[i] += rays.tfar[i] >= 0.0f ? weight : 0.0f;
   }
 }
 
-void TraceTile(const Scene& scene, const std::vector<SobolPoint>& points, Tile& tile)
+void TraceTile(const Scene& scene, const std::vector<SamplePacket>& packets, Tile& tile)
 {
   alignas(64) RTCRay16 rays;
 #if PENUMBRA_EMBREE_VERSION >= 4
@@ -170,15 +239,20 @@ void TraceTile(const Scene& scene, const std::vector<SobolPoint>& points, Tile& 
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 #endif
-  for (const SobolPoint& point : points)
+  for (const SamplePacket& samples : packets)
   {
-    AimRays(scene, tile, point, rays);
+    Packet<int> valid;
+    for (int i = 0; i < Lanes; ++i)
+    {
+      valid.Lane[i] = tile.Valid.Lane[i] & samples.Valid.Lane[i];
+    }
+    AimRays(scene, tile, samples, rays);
 #if PENUMBRA_EMBREE_VERSION >= 4
-    rtcOccluded16(tile.Valid.Lane, scene.Geometry, &rays, &arguments);
+    rtcOccluded16(valid.Lane, scene.Geometry, &rays, &arguments);
 #else
-    rtcOccluded16(tile.Valid.Lane, scene.Geometry, &context, &rays);
+    rtcOccluded16(valid.Lane, scene.Geometry, &context, &rays);
 #endif
-    AddWeights(scene, rays, tile);
+    AddWeights(scene, rays, valid, tile);
   }
 }
 
@@ -189,17 +263,12 @@ glm::dvec3 GetCentre(const EmbreePeer::Input& input, const glm::ivec2& texel)
   return share.x * input.Base.EdgeX + share.y * input.Base.EdgeY;
 }
 
-glm::ivec2 GetTexel(const glm::ivec2& first, int lane)
-{
-  return first + glm::ivec2(lane % TileEdge, lane / TileEdge);
-}
-
-Tile MakeTile(const EmbreePeer::Input& input, const glm::ivec2& first)
+Tile MakeTile(const EmbreePeer::Input& input, const Packing& packing, const glm::ivec2& first)
 {
   Tile tile;
   for (int i = 0; i < Lanes; ++i)
   {
-    const glm::ivec2 texel = GetTexel(first, i);
+    const glm::ivec2 texel = packing.GetTexel(first, i);
     const glm::vec3 centre(GetCentre(input, texel));
     const auto index = static_cast<std::uint32_t>(texel.y * input.Texels.x + texel.x);
     tile.X.Lane[i] = centre.x;
@@ -212,32 +281,44 @@ Tile MakeTile(const EmbreePeer::Input& input, const glm::ivec2& first)
   return tile;
 }
 
+/// The closed form times the visible share of the samples' weights.
+void StoreTile(const EmbreePeer::Input& input, const Packing& packing, const glm::ivec2& first,
+  const Tile& tile, std::vector<float>& irradiance)
+{
+  const glm::dvec3 normal = glm::normalize(glm::cross(input.Base.EdgeX, input.Base.EdgeY));
+  penumbra::Parallelogram light = input.Light;
+  light.Corner -= input.Base.Corner;
+  for (int lane = 0; lane < Lanes; lane += packing.Samples)
+  {
+    if (tile.Valid.Lane[lane])
+    {
+      const float* sum = tile.Sum.Lane + lane;
+      const float* visible = tile.Visible.Lane + lane;
+      const glm::ivec2 texel = packing.GetTexel(first, lane);
+      irradiance[static_cast<std::size_t>(texel.y * input.Texels.x + texel.x)] =
+        static_cast<float>(GetFormFactor(GetCentre(input, texel), normal, light)) *
+        (std::accumulate(visible, visible + packing.Samples, 0.0f) /
+          std::accumulate(sum, sum + packing.Samples, 0.0f));
+    }
+  }
+}
+
 /// Rows of tiles, until none is left.
-void Work(const EmbreePeer::Input& input, const Scene& scene, const std::vector<SobolPoint>& points,
-  std::atomic<int>& nextRow, std::vector<float>& irradiance)
+void Work(const EmbreePeer::Input& input, const Scene& scene, const Packing& packing,
+  const std::vector<SamplePacket>& packets, std::atomic<int>& nextRow,
+  std::vector<float>& irradiance)
 {
 #if defined(__SSE__)
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON); // as Embree advises
 #endif
-  const glm::dvec3 normal = glm::normalize(glm::cross(input.Base.EdgeX, input.Base.EdgeY));
-  penumbra::Parallelogram light = input.Light;
-  light.Corner -= input.Base.Corner;
-  for (int j = TileEdge * nextRow++; j < input.Texels.y; j = TileEdge * nextRow++)
+  const int height = packing.Texels.y;
+  for (int j = height * nextRow++; j < input.Texels.y; j = height * nextRow++)
   {
-    for (int i = 0; i < input.Texels.x; i += TileEdge)
+    for (int i = 0; i < input.Texels.x; i += packing.Texels.x)
     {
-      Tile tile = MakeTile(input, { i, j });
-      TraceTile(scene, points, tile);
-      for (int lane = 0; lane < Lanes; ++lane)
-      {
-        if (tile.Valid.Lane[lane])
-        {
-          const glm::ivec2 texel = GetTexel({ i, j }, lane);
-          irradiance[static_cast<std::size_t>(texel.y * input.Texels.x + texel.x)] =
-            static_cast<float>(GetFormFactor(GetCentre(input, texel), normal, light)) *
-            (tile.Visible.Lane[lane] / tile.Sum.Lane[lane]);
-        }
-      }
+      Tile tile = MakeTile(input, packing, { i, j });
+      TraceTile(scene, packets, tile);
+      StoreTile(input, packing, { i, j }, tile, irradiance);
     }
   }
 }
@@ -297,13 +378,15 @@ std::vector<float> EmbreePeer::Bake(const Input& input)
   scene.LightY = glm::vec3(input.Light.EdgeY);
   scene.LightNormal = glm::vec3(glm::normalize(glm::cross(input.Light.EdgeX, input.Light.EdgeY)));
   scene.Normal = glm::vec3(glm::normalize(glm::cross(input.Base.EdgeX, input.Base.EdgeY)));
-  const std::vector<SobolPoint> points = MakeSobolPoints(input.Samples);
+  const Packing packing(input.Samples);
+  const std::vector<SamplePacket> packets =
+    MakeSamplePackets(MakeSobolPoints(input.Samples), packing);
   std::vector<float> irradiance(static_cast<std::size_t>(input.Texels.x * input.Texels.y));
   std::atomic<int> nextRow{ 0 };
   std::vector<std::thread> threads;
   for (unsigned int i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
   {
-    threads.emplace_back([&] { Work(input, scene, points, nextRow, irradiance); });
+    threads.emplace_back([&] { Work(input, scene, packing, packets, nextRow, irradiance); });
   }
   for (std::thread& thread : threads)
   {
