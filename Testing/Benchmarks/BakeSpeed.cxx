@@ -4,8 +4,10 @@
 // What visibility masks gain over the loop of H&H 1997, section 3.5, what they take, and what baked
 // shadows cost a frame. See README.md.
 
+#include "BenchmarkTools.h"
 #include "LiteralLoop.h"
 #include "ShadowScene.h"
+#include "Spheres.h"
 
 #include "vtkActor.h"
 #include "vtkAreaLightSource.h"
@@ -25,22 +27,14 @@
 #include "vtkSoftShadowPass.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <random>
 #include <string>
 #include <vector>
 
 namespace
 {
-
-/// Seconds since some moment.
-double GetTime()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// How much is done.
 struct Plan
@@ -60,53 +54,6 @@ Plan MakeSmallestPlan()
 }
 
 constexpr double FloorEdge = 10.0;
-constexpr int Spheres = 12;
-
-/// Twelve spheres over the floor [0, 10]^2, each of `rings` rings of 2 `rings` quads, those at the
-/// poles triangles: 48 `rings` (`rings` - 1) triangles. The same on every machine.
-penumbra::Surface MakeSpheres(int rings)
-{
-  std::mt19937 random(1);
-  const auto next = [&]() { return random() / 4294967296.0; };
-  const double pi = std::acos(-1.0);
-  const int columns = 2 * rings;
-  penumbra::Surface surface;
-  for (int s = 0; s < Spheres; ++s)
-  {
-    const double x = 1.5 + 7.0 * next(), y = 1.5 + 7.0 * next(), z = 1.0 + 3.0 * next();
-    const double radius = 0.5 + 0.4 * next();
-    const auto first = static_cast<std::uint32_t>(surface.Points.size());
-    const auto index = [&](int ring, int column)
-    { return first + static_cast<std::uint32_t>(ring * columns + column % columns); };
-    for (int j = 0; j <= rings; ++j)
-    {
-      for (int i = 0; i < columns; ++i)
-      {
-        const double theta = pi * j / rings, phi = 2.0 * pi * i / columns;
-        surface.Points.push_back(glm::dvec3(x, y, z) +
-          radius *
-            glm::dvec3(
-              std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
-      }
-    }
-    for (int j = 0; j < rings; ++j)
-    {
-      for (int i = 0; i < columns; ++i)
-      {
-        if (j > 0)
-        {
-          surface.Triangles.push_back({ index(j, i), index(j + 1, i), index(j, i + 1) });
-        }
-        if (j < rings - 1)
-        {
-          surface.Triangles.push_back({ index(j, i + 1), index(j + 1, i), index(j + 1, i + 1) });
-        }
-      }
-    }
-  }
-  return surface;
-}
-
 /// The floor under the spheres, and a light of 2 x 2 at a height of 8.
 penumbra::ShadowScene MakeScene(const Plan& plan, int rings)
 {
@@ -125,13 +72,6 @@ penumbra::ShadowScene MakeScene(const Plan& plan, int rings)
   scene.Receivers = { receiver };
   scene.Lights = { penumbra::PolygonLight::Parallelogram({ 4, 4, 8 }, { 4, 6, 8 }, { 6, 4, 8 }) };
   return scene;
-}
-
-double GetMedian(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
 /// What was found of one scene's bake.
@@ -386,16 +326,6 @@ bool WriteJson(const std::string& path, const Plan& plan, const std::vector<Bake
        << ", \"bakes\": " << frames.Bakes << " }\n}\n";
   file.close();
   return !file.fail();
-}
-
-/// Prints a line for what is not as required; the answer is whether it is.
-bool Require(bool holds, const std::string& what)
-{
-  if (!holds)
-  {
-    std::printf("FAILED: %s\n", what.c_str());
-  }
-  return holds;
 }
 
 bool Judge(const Plan& plan, const std::vector<BakeResult>& bakes, const FrameResult& frames)

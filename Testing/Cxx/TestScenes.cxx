@@ -7,8 +7,6 @@
 #include "vtkRenderWindow.h"
 #include "vtkSmartPointer.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -27,21 +25,7 @@ glm::dvec3 FromOracle(const oracle::Vec3& v)
   return { static_cast<double>(v.X), static_cast<double>(v.Y), static_cast<double>(v.Z) };
 }
 
-/// Frees the window before VTK's own statics go.
-class WindowEnvironment : public testing::Environment
-{
-public:
-  void TearDown() override { TheWindow = nullptr; }
-};
-
 } // namespace
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  testing::AddGlobalTestEnvironment(new WindowEnvironment);
-  return RUN_ALL_TESTS();
-}
 
 vtkOpenGLRenderWindow* GetTestWindow()
 {
@@ -54,6 +38,11 @@ vtkOpenGLRenderWindow* GetTestWindow()
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(TheWindow);
   window->MakeCurrent();
   return window;
+}
+
+void ReleaseTestWindow()
+{
+  TheWindow = nullptr;
 }
 
 void TestScene::AddLight(const glm::dvec3& origin, const glm::dvec3& point1,

@@ -20,6 +20,8 @@ class vtkOpenGLRenderWindow;
 
 /// One OSMesa window for all tests of the program: made at the first call.
 vtkOpenGLRenderWindow* GetTestWindow();
+/// Frees it: to be called before main() ends and VTK's own statics go.
+void ReleaseTestWindow();
 
 /// A receiver, lights and occluding triangles.
 struct TestScene

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * What every benchmark needs.
+ */
+#ifndef BenchmarkTools_h
+#define BenchmarkTools_h
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+/// Seconds since some moment.
+inline double GetTime()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+inline double GetMedian(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// Prints a line for what is not as required; the answer is whether it is.
+inline bool Require(bool holds, const std::string& what)
+{
+  if (!holds)
+  {
+    std::printf("FAILED: %s\n", what.c_str());
+  }
+  return holds;
+}
+
+#endif
