@@ -26,7 +26,7 @@ namespace
 constexpr int Strips = 8;
 constexpr int MostStripRows = 64;
 /// How far vtkRadianceResolveFS.glsl looks across texels.
-constexpr int ReconstructionRadius = 2;
+constexpr int ReconstructionRadius = 3;
 
 } // namespace
 
