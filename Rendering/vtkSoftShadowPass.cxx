@@ -317,7 +317,7 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
     fragmentShader, "//VTK::Output::Dec", "//VTK::Output::Dec\n" + defines + vtkSoftShadowFS);
 
   // The parts of VTK's light model are there by name, save for unlit and physically based shading.
-  // Without a specular material their specular part is 0, and takes most of a frame's time.
+  // Without a specular material their specular part is 0, and need not be computed.
   const std::string shades = "ambientColor + diffuse + specular";
   const bool hasDiffuse = fragmentShader.find(shades) != std::string::npos;
   const std::string shadow = "penumbraShadow(" + position + ")";
