@@ -5,7 +5,7 @@
 namespace penumbra
 {
 
-ScreenMap MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
+glm::dmat4 MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
   const glm::dmat4& viewToClip, const glm::ivec4& viewport)
 {
   // (u, v, 1) to clip coordinates is linear; its part for x, y and w is to be inverted.
@@ -22,10 +22,20 @@ ScreenMap MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView
     pixelToDevice[2][i] = -1.0 - 2.0 * viewport[i] / viewport[2 + i];
   }
   const glm::dmat3 fromPixel = glm::inverse(toScreen) * pixelToDevice;
-  const glm::dmat3 rows = glm::transpose(fromPixel);
   // clip.z / clip.w is linear in (u q, v q, q); OpenGL maps it from [-1, 1] to [0, 1].
-  const glm::dvec3 depth = 0.5 * (glm::dvec3(x.z, y.z, corner.z) * fromPixel);
-  return { { rows[0], rows[1], rows[2] }, depth + glm::dvec3(0.0, 0.0, 0.5) };
+  const glm::dvec3 depth =
+    0.5 * (glm::dvec3(x.z, y.z, corner.z) * fromPixel) + glm::dvec3(0.0, 0.0, 0.5);
+  const auto column = [&](int i)
+  { return glm::dvec4(fromPixel[i].x, fromPixel[i].y, -depth[i], fromPixel[i].z); };
+  return glm::dmat4(column(0), column(1), glm::dvec4(0.0, 0.0, 1.0, 0.0), column(2));
+}
+
+glm::dmat4 MakeViewMap(const Parallelogram& base, const glm::dmat4& worldToView)
+{
+  const glm::dmat3 turn(worldToView);
+  const Parallelogram seen{ glm::dvec3(worldToView * glm::dvec4(base.Corner, 1.0)),
+    turn * base.EdgeX, turn * base.EdgeY };
+  return ReceiverFrame(seen, ReceiverFrame::Side::Front).GetWorldToFrame();
 }
 
 } // namespace penumbra

@@ -14,28 +14,25 @@ namespace penumbra
 {
 
 /**
- * Two projective maps of the screen, from window coordinates (x, y, 1) in pixels: one to where on a
- * receiver's plane the pixel looks, one to how deep the plane is there. A planar surface needs no
- * more to be textured.
- */
-struct ScreenMap
-{
-  /// The rows of the matrix that gives (u q, v q, q).
-  glm::dvec3 Rows[3];
-  /// Its product with (x, y, 1) is what gl_FragCoord.z is on the plane, at OpenGL's default depth
-  /// range.
-  glm::dvec3 Depth;
-};
-
-/**
+ * The matrix that takes window coordinates, gl_FragCoord's (x, y, z, 1), to (u q, v q, h q, q): (u,
+ * v) is where on the receiver's plane the pixel looks, and h is 0 for what lies on the plane.
+ *
  * @param base the receiver
  * @param worldToView the camera's rigid motion; it is applied first, in double, so that scenes far
  * from the origin lose nothing
  * @param viewToClip the camera's projection, perspective or parallel
  * @param viewport x, y, width and height in pixels
  */
-PENUMBRARENDERING_EXPORT ScreenMap MakeScreenMap(const Parallelogram& base,
+PENUMBRARENDERING_EXPORT glm::dmat4 MakeScreenMap(const Parallelogram& base,
   const glm::dmat4& worldToView, const glm::dmat4& viewToClip, const glm::ivec4& viewport);
+
+/**
+ * The matrix that takes view coordinates (x, y, z, 1) to (u, v, h, 1) of the receiver's frame. In
+ * view coordinates numbers are as large as what is seen, wherever in the world that is: they may be
+ * floats.
+ */
+PENUMBRARENDERING_EXPORT glm::dmat4 MakeViewMap(
+  const Parallelogram& base, const glm::dmat4& worldToView);
 
 } // namespace penumbra
 

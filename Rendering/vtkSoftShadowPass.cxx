@@ -5,6 +5,7 @@
 #include "vtkSoftShadowPass.h"
 
 #include "ScreenMap.h"
+#include "vtkActor.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -15,6 +16,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
+#include "vtkProperty.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
 #include "vtkRenderState.h"
@@ -48,7 +50,33 @@ struct ShownProp
   std::vector<std::size_t> Receivers; ///< indices into the scene's
   vtkSmartPointer<vtkRadianceTexture> Texture;
   int Shading = vtkSoftShadowPass::SHADOW;
+  bool IsMatte = false;
 };
+
+/// True if an actor's material has no specular part.
+bool IsMatte(vtkProp* prop)
+{
+  auto* actor = vtkActor::SafeDownCast(prop);
+  const auto hasNone = [](vtkProperty* property)
+  { return !property || property->GetSpecular() == 0.0; };
+  return actor && hasNone(actor->GetProperty()) && hasNone(actor->GetBackfaceProperty());
+}
+
+/// If the actor is lit and no geometry shader comes between, hands where the vertex lies on its
+/// only receiver from the vertex shader to the fragment shader.
+bool AddVarying(std::string& vertexShader, const std::string& geometryShader)
+{
+  const std::string position = "vertexVCVSOutput = MCVCMatrix * vertexMC;";
+  if (!geometryShader.empty() || vertexShader.find(position) == std::string::npos)
+  {
+    return false;
+  }
+  vtkShaderProgram::Substitute(vertexShader, "//VTK::System::Dec",
+    "//VTK::System::Dec\nuniform mat4 penumbraViewMaps[1];\nout vec2 penumbraUVVSOutput;\n", false);
+  vtkShaderProgram::Substitute(vertexShader, position,
+    position + "\n  penumbraUVVSOutput = (penumbraViewMaps[0] * vertexVCVSOutput).xy;", false);
+  return vertexShader.find("out vec2 penumbraUVVSOutput") != std::string::npos;
+}
 
 /// Uniforms that a receiver takes, in units of four floats, and what is left to VTK's own.
 constexpr int VectorsPerReceiver = 7;
@@ -63,33 +91,30 @@ std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
     std::max(1, (components / 4 - VectorsOfVTK) / VectorsPerReceiver));
 }
 
-/// The uniforms of vtkSoftShadowFS.glsl, an element (of penumbraRows three) for each receiver.
+/// The uniforms of vtkSoftShadowFS.glsl, an element for each receiver.
 struct ReceiverUniforms
 {
-  std::vector<glm::vec3> Rows, Depths, Ambient, Reflectance;
+  std::vector<glm::mat4> Maps;
   std::vector<glm::vec4> Places;
+  std::vector<glm::vec3> Ambient, Reflectance;
 
-  void Add(const penumbra::ScreenMap& map, const penumbra::ReceiverSettings& settings,
+  void Add(const glm::dmat4& map, const penumbra::ReceiverSettings& settings,
     const vtkRadianceTexture::Region& region, const glm::vec2& textureSize)
   {
-    this->Rows.insert(this->Rows.end(), std::begin(map.Rows), std::end(map.Rows));
-    this->Depths.emplace_back(map.Depth);
+    this->Maps.emplace_back(map);
     this->Ambient.emplace_back(settings.AmbientRadiance);
     this->Reflectance.emplace_back(settings.Reflectance);
     this->Places.emplace_back(
       glm::vec2(region.Origin) / textureSize, glm::vec2(region.Size) / textureSize);
   }
 
-  void Set(vtkShaderProgram* program) const
+  void Set(vtkShaderProgram* program, const char* maps)
   {
-    const auto set = [&](const char* name, const std::vector<glm::vec3>& values)
-    { program->SetUniform3fv(name, static_cast<int>(values.size()), &values.front().x); };
-    set("penumbraRows", this->Rows);
-    set("penumbraDepths", this->Depths);
-    set("penumbraAmbient", this->Ambient);
-    set("penumbraReflectance", this->Reflectance);
-    program->SetUniform4fv(
-      "penumbraPlaces", static_cast<int>(this->Places.size()), &this->Places.front().x);
+    const auto count = static_cast<int>(this->Maps.size());
+    program->SetUniformMatrix4x4v(maps, count, &this->Maps.front()[0].x);
+    program->SetUniform4fv("penumbraPlaces", count, &this->Places.front().x);
+    program->SetUniform3fv("penumbraAmbient", count, &this->Ambient.front().x);
+    program->SetUniform3fv("penumbraReflectance", count, &this->Reflectance.front().x);
   }
 };
 
@@ -246,9 +271,11 @@ std::vector<vtkProp*> vtkSoftShadowPass::MarkReceivers()
     ShownProp& shown = this->Impl->Shown[i];
     vtkInformation* keys = shown.Prop->GetPropertyKeys();
     const int shading = keys && keys->Has(DESIGNATED()) ? keys->Get(DESIGNATED()) : this->Shading;
-    if (shading != shown.Shading)
+    const bool isMatte = IsMatte(shown.Prop);
+    if (shading != shown.Shading || isMatte != shown.IsMatte)
     {
       shown.Shading = shading;
+      shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
     if (!keys)
@@ -263,8 +290,8 @@ std::vector<vtkProp*> vtkSoftShadowPass::MarkReceivers()
   return props;
 }
 
-bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& /*vertexShader*/,
-  std::string& /*geometryShader*/, std::string& fragmentShader, vtkAbstractMapper* /*mapper*/,
+bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* /*mapper*/,
   vtkProp* prop)
 {
   // A uniform that is declared twice does not compile, and VTK crashes on shaders that do not.
@@ -274,17 +301,35 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& /*vertexShader*/,
   }
   const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
   const ShownProp& shown = this->Impl->Shown[index];
-  vtkShaderProgram::Substitute(fragmentShader, "//VTK::Output::Dec",
-    "//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " + std::to_string(shown.Receivers.size()) +
-      "\n" + vtkSoftShadowFS);
+  std::string defines =
+    "#define PENUMBRA_RECEIVERS " + std::to_string(shown.Receivers.size()) + "\n";
+  std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
+  if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
+  {
+    defines += "#define PENUMBRA_VIEW\n";
+    position = "vec4(vertexVC.xyz, 1.0)";
+    if (shown.Receivers.size() == 1 && AddVarying(vertexShader, geometryShader))
+    {
+      defines += "#define PENUMBRA_VARYING\n";
+    }
+  }
+  vtkShaderProgram::Substitute(
+    fragmentShader, "//VTK::Output::Dec", "//VTK::Output::Dec\n" + defines + vtkSoftShadowFS);
 
   // The parts of VTK's light model are there by name, save for unlit and physically based shading.
-  const bool hasDiffuse =
-    fragmentShader.find("ambientColor + diffuse + specular") != std::string::npos;
+  // Without a specular material their specular part is 0, and need not be computed.
+  const std::string shades = "ambientColor + diffuse + specular";
+  const bool hasDiffuse = fragmentShader.find(shades) != std::string::npos;
+  const std::string shadow = "penumbraShadow(" + position + ")";
+  if (shown.Shading == SHADOW && hasDiffuse)
+  {
+    vtkShaderProgram::Substitute(fragmentShader, shades,
+      "ambientColor + diffuse * " + shadow + (shown.IsMatte ? "" : " + specular"));
+    return true;
+  }
   const std::string shade = shown.Shading == RADIANCE
-    ? "  gl_FragData[0].rgb = diffuseColor * penumbraRadiance();\n"
-    : hasDiffuse ? "  gl_FragData[0].rgb += (penumbraShadow() - 1.0) * diffuse;\n"
-                 : "  gl_FragData[0].rgb *= penumbraShadow();\n";
+    ? "  gl_FragData[0].rgb = diffuseColor * penumbraRadiance(" + position + ");\n"
+    : "  gl_FragData[0].rgb *= " + shadow + ";\n";
   vtkShaderProgram::Substitute(
     fragmentShader, "//VTK::Light::Impl", "//VTK::Light::Impl\n" + shade, false);
   return true;
@@ -309,19 +354,24 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   vtkMatrix3x3* normals;
   vtkOpenGLCamera::SafeDownCast(this->Impl->Renderer->GetActiveCamera())
     ->GetKeyMatrices(this->Impl->Renderer, worldToView, normals, viewToClip, worldToClip);
+  const glm::dmat4 toView = glm::make_mat4(worldToView->GetData());
+  const glm::dmat4 toClip = glm::make_mat4(viewToClip->GetData());
   glm::ivec4 viewport;
   state->vtkglGetIntegerv(GL_VIEWPORT, &viewport.x);
 
+  const bool fromView = program->IsUniformUsed("penumbraViewMaps");
   const penumbra::ShadowScene& scene = this->Impl->Collector->GetScene();
   ReceiverUniforms uniforms;
   for (std::size_t i = 0; i < shown.Receivers.size(); ++i)
   {
     const penumbra::Receiver& receiver = scene.Receivers[shown.Receivers[i]];
-    uniforms.Add(penumbra::MakeScreenMap(receiver.Base, glm::make_mat4(worldToView->GetData()),
-                   glm::make_mat4(viewToClip->GetData()), viewport),
-      receiver.Settings, shown.Texture->GetRegions()[i], glm::vec2(shown.Texture->GetSize()));
+    const glm::dmat4 map = fromView
+      ? penumbra::MakeViewMap(receiver.Base, toView)
+      : penumbra::MakeScreenMap(receiver.Base, toView, toClip, viewport);
+    uniforms.Add(
+      map, receiver.Settings, shown.Texture->GetRegions()[i], glm::vec2(shown.Texture->GetSize()));
   }
-  uniforms.Set(program);
+  uniforms.Set(program, fromView ? "penumbraViewMaps" : "penumbraScreenMaps");
   return true;
 }
 

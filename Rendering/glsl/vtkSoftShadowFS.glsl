@@ -3,75 +3,85 @@
 
 // Put into the fragment shader of every actor that receives shadows, by vtkSoftShadowPass.
 //
-// A receiver is planar, so where a fragment lies on it is a projective map of where it lies on the screen:
-// no varying is needed, and nothing depends on which shaders VTK puts before this one.
+// A receiver is planar, so where a fragment lies on it is an affine map of where it lies in the view. VTK's shaders
+// of lit actors know that as vertexVC. PENUMBRA_POSITION is then (vertexVC, 1), PENUMBRA_VIEW is defined, and so is
+// PENUMBRA_VARYING if the vertex shader itself can hand on (u, v), which is cheapest. Otherwise the position is
+// gl_FragCoord, from which the map is projective: it depends on no other shader.
 
 uniform sampler2D penumbraTexture;
-uniform vec3 penumbraRows[3 * PENUMBRA_RECEIVERS];   // (gl_FragCoord.xy, 1) to (u q, v q, q)
-uniform vec3 penumbraDepths[PENUMBRA_RECEIVERS];     // (gl_FragCoord.xy, 1) to the plane's gl_FragCoord.z
-uniform vec4 penumbraPlaces[PENUMBRA_RECEIVERS];     // (u, v) to texture coordinates: origin, size
+#ifdef PENUMBRA_VIEW
+#define PENUMBRA_MAPS penumbraViewMaps
+#else
+#define PENUMBRA_MAPS penumbraScreenMaps
+#endif
+uniform mat4 PENUMBRA_MAPS[PENUMBRA_RECEIVERS];  // (position, 1) to (u q, v q, h q, q), with h = 0 on the plane
+uniform vec4 penumbraPlaces[PENUMBRA_RECEIVERS]; // (u, v) to texture coordinates: origin, size
 uniform vec3 penumbraAmbient[PENUMBRA_RECEIVERS];
 uniform vec3 penumbraReflectance[PENUMBRA_RECEIVERS];
-
-// Of several receivers, the one whose plane passes closest to the fragment.
-int penumbraFindReceiver(vec3 pixel)
-{
-  int nearest = 0;
-#if PENUMBRA_RECEIVERS > 1
-  float nearestDistance = 2.0;
-  for (int i = 0; i < PENUMBRA_RECEIVERS; ++i)
-  {
-    vec2 uv = vec2(dot(penumbraRows[3 * i], pixel), dot(penumbraRows[3 * i + 1], pixel)) /
-      dot(penumbraRows[3 * i + 2], pixel);
-    vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0);
-    // What is outside a receiver's parallelogram by a texel or more belongs to another one.
-    float distance = abs(dot(penumbraDepths[i], pixel) - gl_FragCoord.z) +
-      (max(outside.x, outside.y) > 0.01 ? 1.0 : 0.0);
-    if (distance < nearestDistance)
-    {
-      nearestDistance = distance;
-      nearest = i;
-    }
-  }
+#ifdef PENUMBRA_VARYING
+in vec2 penumbraUVVSOutput;
 #endif
-  return nearest;
+
+vec4 penumbraTransform(mat4 map, vec4 position)
+{
+#ifdef PENUMBRA_VIEW
+  return vec4(mat4x3(map) * position, 1.0); // q = 1: the compiler drops the divisions
+#else
+  return map * position;
+#endif
 }
 
-// The irradiance over pi at the fragment, and in a what is blocked, in the mean of the components.
-vec4 penumbraLookUp(int i, vec3 pixel)
+// The irradiance over pi at the fragment, and in a what is blocked of it, in the mean; its receiver's settings.
+vec4 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
 {
-  vec3 rowU = penumbraRows[3 * i];
-  vec3 rowV = penumbraRows[3 * i + 1];
-  vec3 rowQ = penumbraRows[3 * i + 2];
-  float inverse = 1.0 / dot(rowQ, pixel);
-  vec2 uv = vec2(dot(rowU, pixel), dot(rowV, pixel)) * inverse;
-#if PENUMBRA_RECEIVERS == 1
-  return texture(penumbraTexture, uv); // the receiver fills its texture, which clamps to its edge
+  ambient = penumbraAmbient[0];
+  reflectance = penumbraReflectance[0];
+#if defined(PENUMBRA_VARYING)
+  return texture(penumbraTexture, penumbraUVVSOutput); // one receiver fills its texture, which clamps to its edge
+#elif PENUMBRA_RECEIVERS == 1
+  vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[0], position);
+  return texture(penumbraTexture, uvhq.xy / uvhq.w);
 #else
-  // The derivatives of (u q) / q: those that OpenGL would take fail where one receiver meets the next.
-  vec2 dx = (vec2(rowU.x, rowV.x) - uv * rowQ.x) * inverse;
-  vec2 dy = (vec2(rowU.y, rowV.y) - uv * rowQ.y) * inverse;
-  vec4 place = penumbraPlaces[i];
-  return textureGrad(
-    penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw, dx * place.zw, dy * place.zw);
+  // Of several receivers, the one that is closest to the fragment. What belongs to it is kept on the way: an array
+  // with an index that differs between fragments is slow to read. The height weighs more than what lies beside the
+  // receiver, so that all pixels of a quad that a triangle's edge crosses find the same one: their differences give
+  // the mip level. Where they do not, the gutters of the atlas keep the receivers apart.
+  vec2 uv = vec2(0.0);
+  vec4 place = penumbraPlaces[0];
+  float nearest = 3.0e38;
+  for (int i = 0; i < PENUMBRA_RECEIVERS; ++i)
+  {
+    vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[i], position);
+    vec3 uvh = uvhq.xyz / uvhq.w;
+    vec2 outside = abs(uvh.xy - 0.5);
+    float distance = max(max(outside.x, outside.y), 0.5) + 4.0 * abs(uvh.z);
+    if (distance < nearest)
+    {
+      nearest = distance;
+      uv = uvh.xy;
+      place = penumbraPlaces[i];
+      ambient = penumbraAmbient[i];
+      reflectance = penumbraReflectance[i];
+    }
+  }
+  return texture(penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw);
 #endif
 }
 
 // The factor of the diffuse shade: the radiance relative to what it would be unblocked, in the mean of the
 // components; the hue of the light stays. Where no light could arrive, there is no shadow.
-vec3 penumbraShadow()
+vec3 penumbraShadow(vec4 position)
 {
-  vec3 pixel = vec3(gl_FragCoord.xy, 1.0);
-  int i = penumbraFindReceiver(pixel);
-  vec4 arriving = penumbraLookUp(i, pixel);
-  float unblocked = arriving.a + dot(arriving.rgb + penumbraAmbient[i], vec3(1.0 / 3.0));
-  return unblocked > 0.0 ? (arriving.rgb + penumbraAmbient[i]) / unblocked : vec3(1.0);
+  vec3 ambient, reflectance;
+  vec4 arriving = penumbraLookUp(position, ambient, reflectance);
+  float unblocked = arriving.a + dot(arriving.rgb + ambient, vec3(1.0 / 3.0));
+  return unblocked > 0.0 ? (arriving.rgb + ambient) / unblocked : vec3(1.0);
 }
 
 // H&H 1997, eq. 1.
-vec3 penumbraRadiance()
+vec3 penumbraRadiance(vec4 position)
 {
-  vec3 pixel = vec3(gl_FragCoord.xy, 1.0);
-  int i = penumbraFindReceiver(pixel);
-  return penumbraReflectance[i] * (penumbraAmbient[i] + penumbraLookUp(i, pixel).rgb);
+  vec3 ambient, reflectance;
+  vec3 arriving = penumbraLookUp(position, ambient, reflectance).rgb;
+  return reflectance * (ambient + arriving);
 }
