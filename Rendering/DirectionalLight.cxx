@@ -105,6 +105,8 @@ std::vector<double> DirectionalLight::GetKey() const
 {
   std::vector<double> key = this->MakeKey(4);
   key.insert(key.end(), { this->Source.x, this->Source.y, this->Source.z, this->AngularDiameter });
+  const std::vector<double> diskKey = this->Disk.GetKey(); // what a plane has left of it
+  key.insert(key.end(), diskKey.begin(), diskKey.end());
   return key;
 }
 

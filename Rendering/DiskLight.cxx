@@ -67,6 +67,20 @@ glm::dvec3 FindAcross(const glm::dvec3& v)
   return glm::normalize(glm::cross(v, axis));
 }
 
+/// The unit vector along v, which is across a unit vector `axis` but for its rounding; `fallback`
+/// where v is no more than that.
+glm::dvec3 NormalizeAcross(const glm::dvec3& v, const glm::dvec3& axis, const glm::dvec3& fallback)
+{
+  const double length = glm::length(v);
+  if (!(length > 0.0))
+  {
+    return fallback;
+  }
+  const glm::dvec3 across = v / length - glm::dot(v / length, axis) * axis;
+  const double left = glm::length(across); // 1 but for rounding, unless v is nothing else
+  return left > 0.5 ? across / left : fallback;
+}
+
 /**
  * Lambert's contour integral over the arc of a circle of radius r around the origin, from angle
  * `from` to `to`, seen from (rho, 0, -h):  the integral of p x dp / |p|^2 with p = (r cos t - rho,
@@ -230,7 +244,7 @@ double DiskLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) cons
   }
 
   // In the disk's plane: the first axis from the centre to x, the third away from x.
-  const glm::dvec3 e1 = rho > 0.0 ? -inPlane / rho : seen.CutDirection;
+  const glm::dvec3 e1 = NormalizeAcross(-inPlane, side, seen.CutDirection);
   const glm::dvec3 e2 = glm::cross(side, e1);
   const double middle =
     std::atan2(glm::dot(seen.CutDirection, e2), glm::dot(seen.CutDirection, e1));
@@ -273,7 +287,11 @@ std::vector<double> DiskLight::GetKey() const
   std::vector<double> key = this->MakeKey(1);
   key.insert(key.end(),
     { this->Centre.x, this->Centre.y, this->Centre.z, this->Normal.x, this->Normal.y,
-      this->Normal.z, this->Radius });
+      this->Normal.z, this->Radius, this->CutOffset });
+  if (this->CutOffset > -1.0)
+  {
+    key.insert(key.end(), { this->CutDirection.x, this->CutDirection.y, this->CutDirection.z });
+  }
   return key;
 }
 

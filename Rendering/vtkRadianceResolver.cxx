@@ -62,9 +62,16 @@ bool vtkRadianceResolver::SetSamples(
   bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady = isReady && this->Share[i]->SetSamples(samples, i, previousCount);
+    isReady = isReady && this->Share[i]->SetSamples(samples, this->GetChannels(i), previousCount);
   }
   return isReady;
+}
+
+glm::dvec3 vtkRadianceResolver::GetChannels(int share) const
+{
+  glm::dvec3 channels(this->ShareCount > 1 ? 0.0 : 1.0);
+  channels[share] = 1.0;
+  return channels;
 }
 
 int vtkRadianceResolver::GetHalo() const

@@ -101,6 +101,10 @@ private:
   vtkRadianceResolver(const vtkRadianceResolver&) = delete;
   void operator=(const vtkRadianceResolver&) = delete;
 
+  /// 1 for the components that the share of the given index is of: all, if there is one share
+  /// alone.
+  glm::dvec3 GetChannels(int share) const;
+
   /// What a strip's shares are in.
   enum class Shares
   {

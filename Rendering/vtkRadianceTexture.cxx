@@ -141,6 +141,10 @@ void vtkRadianceTexture::BindAsTarget(const Region& region, int firstRow, int la
   this->Framebuffer->AddColorAttachment(0, this->Irradiance);
   this->Framebuffer->AddColorAttachment(1, this->Variance);
   this->Framebuffer->ActivateDrawBuffers(2);
+  // vtkOpenGLState takes the draw buffers of the framebuffer that was bound before for those of
+  // this one, and may not have set them.
+  constexpr GLenum buffers[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  glDrawBuffers(2, buffers);
 
   for (unsigned int capability : { GL_DEPTH_TEST, GL_CULL_FACE })
   {

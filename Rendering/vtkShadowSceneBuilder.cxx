@@ -318,11 +318,28 @@ std::string vtkShadowSceneBuilder::FindSurfaceLightProblem(
         " is not planar and convex; allowed: planar convex polygons (Triangulate makes them)";
     }
   }
-  if (problem.empty() && !MakeSurfaceLight(data, settings).IsValid())
+  if (!problem.empty())
   {
-    problem = "no polygon has an area and a radiance greater than 0; allowed: at least one";
+    return problem;
   }
-  return problem;
+  const penumbra::SurfaceLight light = MakeSurfaceLight(data, settings);
+  if (!light.IsValid())
+  {
+    return "no polygon has an area and a radiance greater than 0; allowed: at least one";
+  }
+  double brightest = 0.0;
+  for (const penumbra::PolygonLight& cell : light.GetCells())
+  {
+    const glm::dvec3 radiance = light.Radiance * cell.Radiance;
+    brightest = std::max({ brightest, radiance.x, radiance.y, radiance.z });
+  }
+  if (!(brightest <= penumbra::LightSettings::MaximumRadiance))
+  {
+    std::ostringstream text;
+    text << "Radiance times that of a polygon is " << brightest << "; allowed: 0 to 1e30";
+    return text.str();
+  }
+  return "";
 }
 
 void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,

@@ -26,14 +26,15 @@ vtkStandardNewMacro(vtkVisibilityShare);
 namespace
 {
 
-/// The largest power of the component, by which it is divided: only ratios count, and floats must
+/// The largest power of the samples, by which it is divided: only ratios count, and floats must
 /// hold them.
-double GetLargestPower(const std::vector<penumbra::LightSample>& samples, int component)
+double GetLargestPower(
+  const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels)
 {
   double largest = 0.0;
   for (const penumbra::LightSample& sample : samples)
   {
-    largest = std::max(largest, sample.Power[component]);
+    largest = std::max(largest, glm::dot(channels, sample.Power));
   }
   return largest;
 }
@@ -66,12 +67,12 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
 }
 
 bool vtkVisibilityShare::SetSamples(
-  const std::vector<penumbra::LightSample>& samples, int component, int previousCount)
+  const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels, int previousCount)
 {
   this->SampleCount = static_cast<int>(samples.size());
   this->PreviousCount = previousCount;
   std::vector<glm::vec4> places, cells;
-  const double largest = GetLargestPower(samples, component);
+  const double largest = GetLargestPower(samples, channels);
   for (const penumbra::LightSample& sample : samples)
   {
     places.push_back(sample.IsDirection
@@ -79,7 +80,8 @@ bool vtkVisibilityShare::SetSamples(
             glm::vec3(this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()), 0.0f)
         : glm::vec4(glm::vec3(this->Frame.ToMetric(sample.Place)), 1.0f));
     const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
-    cells.emplace_back(glm::vec3(normal), largest > 0.0 ? sample.Power[component] / largest : 0.0);
+    cells.emplace_back(
+      glm::vec3(normal), largest > 0.0 ? glm::dot(channels, sample.Power) / largest : 0.0);
   }
   if (!this->UploadBuffer(this->SampleBuffer, this->Samples, places) ||
     (this->HasCells && !this->UploadBuffer(this->CellBuffer, this->Cells, cells)))

@@ -44,11 +44,11 @@ public:
   /**
    * The samples whose masks will come. The first half (the greater, if their number is odd) and the
    * second must each be spread over the light; if `previousCount` samples were counted before,
-   * those are one half and the new ones the other. Of Emission::Cells, `component` is that of their
-   * power. False, after vtkErrorMacro, if OpenGL refuses.
+   * those are one half and the new ones the other. Of Emission::Cells, `channels` says which
+   * components of their power count. False, after vtkErrorMacro, if OpenGL refuses.
    */
-  bool SetSamples(
-    const std::vector<penumbra::LightSample>& samples, int component, int previousCount);
+  bool SetSamples(const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels,
+    int previousCount);
 
   /**
    * Count the receiver's rows [firstRow, lastRow) into as many rows of the texture, from

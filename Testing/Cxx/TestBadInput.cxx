@@ -5,8 +5,10 @@
 
 #include "PassScene.h"
 
+#include "vtkAreaLightFromSurface.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
@@ -22,6 +24,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -257,6 +261,268 @@ TEST(BadInput, LightWithNaN)
   const Messages messages;
   floor.Light->Update();
   messages.ExpectOne({ "AreaLight", "Origin is (nan, 0, 0)", "allowed" });
+}
+
+namespace
+{
+
+/// A source that makes no sense says so once and has nothing in its output, and the floor is baked
+/// without it.
+void ExpectRefused(vtkAreaLightSource* light, const std::vector<std::string>& words)
+{
+  FloorMap floor;
+  const Messages messages;
+  light->Update();
+  messages.ExpectOne(words);
+  EXPECT_EQ(light->GetOutput()->GetNumberOfCells(), 0);
+  floor.Map->AddInputConnection(vtkRadianceMap::LIGHTS, light->GetOutputPort());
+  floor.ExpectFinite();
+}
+
+} // namespace
+
+TEST(BadInput, AngularDiameterOutOfRange)
+{
+  for (const double diameter : { 180.0, -1.0, NaN })
+  {
+    vtkNew<vtkAreaLightSource> light;
+    light->SetShape(vtkAreaLightSource::DIRECTIONAL);
+    light->SetAngularDiameter(diameter);
+    ExpectRefused(light, { "AreaLight", "AngularDiameter is ", "less than 180" });
+  }
+}
+
+TEST(BadInput, DiskWithoutRadius)
+{
+  vtkNew<vtkAreaLightSource> light;
+  light->SetShape(vtkAreaLightSource::DISK);
+  light->SetPoint1(light->GetOrigin());
+  ExpectRefused(light, { "AreaLight", "area", "is 0", "allowed" });
+}
+
+TEST(BadInput, SegmentWithoutLength)
+{
+  vtkNew<vtkAreaLightSource> light;
+  light->SetShape(vtkAreaLightSource::SEGMENT);
+  light->SetPoint1(light->GetOrigin());
+  ExpectRefused(light, { "AreaLight", "distance from Origin to Point1 is 0", "more than 0" });
+}
+
+TEST(BadInput, DirectionalWithoutDirection)
+{
+  vtkNew<vtkAreaLightSource> light;
+  light->SetShape(vtkAreaLightSource::DIRECTIONAL);
+  light->SetPoint1(light->GetOrigin());
+  ExpectRefused(light, { "AreaLight", "distance from Origin to Point1 is 0", "more than 0" });
+}
+
+TEST(BadInput, UnknownShape)
+{
+  for (const int shape : { -1, 6 })
+  {
+    vtkNew<vtkAreaLightSource> light;
+    light->SetShape(shape);
+    ExpectRefused(light, { "AreaLight", "Shape is " + std::to_string(shape), "allowed: 0" });
+  }
+}
+
+TEST(BadInput, RadianceOutOfRange)
+{
+  for (const double radiance : { -1.0, 1e31, NaN })
+  {
+    vtkNew<vtkAreaLightSource> light;
+    light->SetShape(vtkAreaLightSource::POINT);
+    light->SetRadiance(1.0, radiance, 1.0);
+    ExpectRefused(light, { "AreaLight", "Radiance is (1, ", "0 to 1e30" });
+  }
+}
+
+namespace
+{
+
+/// A pane whose corners tests move, under a filter that makes a light of it.
+struct PaneLight
+{
+  PaneLight()
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->InsertNextPoint(-0.5, -0.5, 2.0);
+    points->InsertNextPoint(-0.5, 0.5, 2.0);
+    points->InsertNextPoint(0.5, 0.5, 2.0);
+    points->InsertNextPoint(0.5, -0.5, 2.0);
+    vtkNew<vtkCellArray> polygons;
+    polygons->InsertNextCell({ 0, 1, 2, 3 });
+    this->Pane->SetPoints(points);
+    this->Pane->SetPolys(polygons);
+    this->Filter->SetInputData(this->Pane);
+  }
+
+  void SetArray(std::initializer_list<double> values)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("Glow");
+    array->SetNumberOfComponents(static_cast<int>(values.size()));
+    array->InsertNextTuple(values.begin());
+    this->Pane->GetCellData()->AddArray(array);
+    this->Filter->SetRadianceArray("Glow");
+  }
+
+  void ExpectRefused(const std::vector<std::string>& words)
+  {
+    FloorMap floor;
+    const Messages messages;
+    this->Filter->Update();
+    messages.ExpectOne(words);
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfCells(), 0);
+    floor.Map->AddInputConnection(vtkRadianceMap::LIGHTS, this->Filter->GetOutputPort());
+    floor.ExpectFinite();
+  }
+
+  vtkNew<vtkPolyData> Pane;
+  vtkNew<vtkAreaLightFromSurface> Filter;
+};
+
+} // namespace
+
+// What the cases below change is good before they do.
+TEST(BadInput, NothingInAGoodPane)
+{
+  PaneLight light;
+  light.SetArray({ 1.0, 0.0, 0.5 });
+  FloorMap floor;
+  floor.Map->AddInputConnection(vtkRadianceMap::LIGHTS, light.Filter->GetOutputPort());
+  const Messages messages;
+  floor.ExpectFinite();
+  EXPECT_EQ(messages.GetText(), "");
+  EXPECT_EQ(light.Filter->GetOutput()->GetNumberOfCells(), 1);
+}
+
+TEST(BadInput, ConcavePolygonAsLight)
+{
+  PaneLight light;
+  light.Pane->GetPoints()->SetPoint(2, -0.3, -0.3, 2.0);
+  light.ExpectRefused({ "AreaLightFromSurface", "polygon 0", "planar and convex", "allowed" });
+}
+
+TEST(BadInput, BentPolygonAsLight)
+{
+  PaneLight light;
+  light.Pane->GetPoints()->SetPoint(2, 0.5, 0.5, 2.1);
+  light.ExpectRefused({ "AreaLightFromSurface", "polygon 0", "planar and convex", "allowed" });
+}
+
+TEST(BadInput, NaNInPolygonAsLight)
+{
+  PaneLight light;
+  light.Pane->GetPoints()->SetPoint(2, 0.5, NaN, 2.0);
+  light.ExpectRefused({ "AreaLightFromSurface", "polygon 0", "not finite", "allowed" });
+}
+
+TEST(BadInput, NoPolygonAsLight)
+{
+  PaneLight light;
+  light.Pane->Initialize();
+  light.ExpectRefused({ "AreaLightFromSurface", "no polygon", "allowed" });
+}
+
+TEST(BadInput, PolygonWithoutAreaAsLight)
+{
+  PaneLight light;
+  light.Pane->GetPoints()->SetPoint(1, -0.5, -0.5, 2.0);
+  light.Pane->GetPoints()->SetPoint(2, 0.5, -0.5, 2.0);
+  light.ExpectRefused({ "AreaLightFromSurface", "no polygon has an area", "allowed" });
+}
+
+TEST(BadInput, MissingRadianceArray)
+{
+  PaneLight light;
+  light.Filter->SetRadianceArray("Glow");
+  light.ExpectRefused({ "AreaLightFromSurface", "RadianceArray is 'Glow'", "allowed" });
+}
+
+TEST(BadInput, RadianceArrayOfTwoComponents)
+{
+  PaneLight light;
+  light.SetArray({ 1.0, 2.0 });
+  light.ExpectRefused({ "AreaLightFromSurface", "'Glow' has 2 components", "allowed: 1 or 3" });
+}
+
+TEST(BadInput, RadianceArrayOutOfRange)
+{
+  for (const double value : { -1.0, 1e31, NaN })
+  {
+    PaneLight light;
+    light.SetArray({ 1.0, value, 1.0 });
+    light.ExpectRefused({ "AreaLightFromSurface", "'Glow' is ", "at cell 0", "0 to 1e30" });
+  }
+}
+
+TEST(BadInput, DarkSurfaceAsLight)
+{
+  PaneLight byArray;
+  byArray.SetArray({ 0.0, 0.0, 0.0 });
+  byArray.ExpectRefused({ "AreaLightFromSurface", "radiance greater than 0", "allowed" });
+  for (const double value : { -1.0, NaN })
+  {
+    PaneLight byFactor;
+    byFactor.Filter->SetRadiance(1.0, 1.0, value);
+    byFactor.ExpectRefused({ "AreaLightFromSurface", "Radiance is (1, 1, ", "0 to 1e30" });
+  }
+}
+
+// Each value is good, and their product is not.
+TEST(BadInput, RadianceOfSurfaceOverflows)
+{
+  PaneLight light;
+  light.SetArray({ 1e30 });
+  light.Filter->SetRadiance(1e30, 1e30, 1e30);
+  light.ExpectRefused({ "AreaLightFromSurface", "1e30", "allowed" });
+}
+
+TEST(BadInput, AccuracyOutOfRange)
+{
+  const auto expectRefused =
+    [](const std::function<void(vtkShadowReceiver*)>& set, const std::vector<std::string>& words)
+  {
+    FloorMap floor;
+    set(floor.Receiver);
+    const Messages messages;
+    EXPECT_EQ(floor.CountBlocks(), 0u);
+    messages.ExpectOne(words);
+  };
+  for (const double value : { 2.0, -1.0, NaN })
+  {
+    expectRefused([&](vtkShadowReceiver* r) { r->SetErrorTolerance(value); },
+      { "ShadowReceiver", "ErrorTolerance is ", "0 (off) to 1" });
+  }
+  for (const double value : { -1.0, NaN, std::numeric_limits<double>::infinity() })
+  {
+    expectRefused([&](vtkShadowReceiver* r) { r->SetSolidAnglePerSample(value); },
+      { "ShadowReceiver", "SolidAnglePerSample is ", "0 (off) or" });
+  }
+  for (const int value : { 0, -5, 65537 })
+  {
+    expectRefused([&](vtkShadowReceiver* r) { r->SetMaximumLightSamples(value); },
+      { "ShadowReceiver", "MaximumLightSamples is ", "1 to 65536" });
+  }
+}
+
+// Accuracies that nothing can reach end where they are said to.
+TEST(BadInput, AccuracyOutOfReach)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> occluder;
+  occluder->SetOutput(MakeTriangle(0.0));
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, occluder->GetOutputPort());
+  floor.Receiver->SetErrorTolerance(1e-300);
+  floor.Receiver->SetMaximumLightSamples(100);
+  const Messages messages;
+  floor.ExpectFinite();
+  floor.Receiver->SetErrorTolerance(0.0);
+  floor.Receiver->SetSolidAnglePerSample(1e-300);
+  floor.ExpectFinite();
+  EXPECT_EQ(messages.GetText(), "");
 }
 
 TEST(BadInput, SettingsOutOfRange)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestScenes.h"
 
+#include "OracleScene.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderWindow.h"
@@ -15,15 +16,6 @@ namespace
 
 vtkSmartPointer<vtkRenderWindow> TheWindow;
 
-oracle::Vec3 ToOracle(const glm::dvec3& v)
-{
-  return { v.x, v.y, v.z };
-}
-
-glm::dvec3 FromOracle(const oracle::Vec3& v)
-{
-  return { static_cast<double>(v.X), static_cast<double>(v.Y), static_cast<double>(v.Z) };
-}
 
 } // namespace
 
