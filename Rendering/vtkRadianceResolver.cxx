@@ -135,29 +135,21 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
     state, program, "closedForm", GL_TEXTURE_2D, this->ClosedForm->GetTexture()->GetHandle());
   program->SetUniformi("firstRow", firstRow);
   program->SetUniformi("reconstruction", this->Chosen.Reconstruction ? 1 : 0);
-  program->SetUniformi("hasShares", shares == Shares::None ? 0 : 1);
+  const int count = shares == Shares::None ? 0 : this->ShareCount;
+  program->SetUniformi("shareCount", count);
   program->SetUniformi(
     "sharesFirstRow", shares == Shares::Strip ? std::max(firstRow - this->GetHalo(), 0) : 0);
   program->SetUniform2i("regionOrigin", &region.Origin.x);
   program->SetUniform2i("regionSize", &region.Size.x);
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
-  const int count = shares == Shares::None ? 1 : this->ShareCount;
-  program->SetUniformf("varianceFactor", static_cast<float>(count));
   target->BindAsTarget(region, firstRow, lastRow, add);
-  for (int i = 0; i < count; ++i)
-  {
-    glm::vec3 channels(count > 1 ? 0.0f : 1.0f);
-    channels[i] = 1.0f;
-    program->SetUniform3f("channels", &channels.x);
-    const penumbra::ScopedTexture share(state, program, "shares", GL_TEXTURE_2D,
-      shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle());
-    penumbra::DrawFullScreenTriangle();
-    if (!add && i == 0 && count > 1)
-    {
-      target->BindAsTarget(region, firstRow, lastRow, true);
-    }
-  }
+  const auto getShare = [&](int i)
+  { return count == 0 ? 0 : this->Share[std::min(i, count - 1)]->GetTexture()->GetHandle(); };
+  const penumbra::ScopedTexture red(state, program, "shares", GL_TEXTURE_2D, getShare(0));
+  const penumbra::ScopedTexture green(state, program, "greenShares", GL_TEXTURE_2D, getShare(1));
+  const penumbra::ScopedTexture blue(state, program, "blueShares", GL_TEXTURE_2D, getShare(2));
+  penumbra::DrawFullScreenTriangle();
 }
 
 std::size_t vtkRadianceResolver::GetBytes() const

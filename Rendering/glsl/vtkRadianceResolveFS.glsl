@@ -8,24 +8,25 @@
 // Hill and McGuire 2018), and the variance of that share.
 // Output 0: irradiance / pi in rgb, and in a what is blocked, in the mean of the components: 0, to the bit,
 // where nothing is.
-// Output 1: in r, the variance of the mean of rgb once they are reflected.
+// Output 1: in r, the variance of the mean of rgb once they are reflected. The components' errors are added
+// with their signs: they come of the same samples, and may be alike or cancel.
 
 uniform sampler2D closedForm; // irradiance / pi of the unoccluded light, in rows from firstRow on
 uniform int firstRow;
-uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on
+uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on; of red alone
+uniform sampler2D greenShares; // if the components' differ
+uniform sampler2D blueShares;
 uniform int sharesFirstRow;
-uniform int hasShares;        // 0: nothing blocks
+uniform int shareCount;       // 0: nothing blocks; 1: the components have one share; 3: each has its own
 uniform int reconstruction;   // are shares filtered across texels?
 uniform ivec2 regionOrigin;   // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
-uniform vec3 channels;        // 1 for the components that the share is of
-uniform float varianceFactor; // 3 if the components' shares come one by one: their errors may be alike
 uniform vec3 reflectance;     // for the variance alone
 
 // What a texel sees of the light, and half the difference of what the halves of the samples say.
-vec2 seenShare(ivec2 texel)
+vec2 seenShare(sampler2D source, ivec2 texel)
 {
-  return texelFetch(shares, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
+  return texelFetch(source, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
 }
 
 // Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel. Within
@@ -33,9 +34,9 @@ vec2 seenShare(ivec2 texel)
 // (Savitzky and Golay 1964, in two dimensions; weights for 5x5 and 3x3), which keeps slope and curvature. A
 // wider window is trusted as far as it agrees with the narrower one to within the standard error that the
 // halves of the samples give: where it does not, there is a crease, and it would be smeared.
-vec2 reconstructShare(ivec2 texel)
+vec2 reconstructShare(sampler2D source, ivec2 texel)
 {
-  vec2 one = seenShare(texel);
+  vec2 one = seenShare(source, texel);
   if (one.r <= 0.0 || one.r >= 1.0 || any(lessThan(texel, ivec2(2))) ||
     any(greaterThanEqual(texel, regionSize - 2)))
   {
@@ -49,7 +50,7 @@ vec2 reconstructShare(ivec2 texel)
   {
     for (int i = -2; i <= 2; ++i)
     {
-      vec2 s = seenShare(texel + ivec2(i, j));
+      vec2 s = seenShare(source, texel + ivec2(i, j));
       bool isPartial = s.r > 0.0 && s.r < 1.0;
       bool isInner = max(abs(i), abs(j)) < 2;
       float r2 = float(i * i + j * j);
@@ -66,15 +67,27 @@ vec2 reconstructShare(ivec2 texel)
   return vec2(clamp(share.r, 0.0, 1.0), share.g);
 }
 
+vec2 findShare(sampler2D source, ivec2 texel)
+{
+  return reconstruction != 0 ? reconstructShare(source, texel) : seenShare(source, texel);
+}
+
 void main()
 {
   // Around the receiver, its edge's texels are repeated: see vtkRadianceTexture.
   ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
-  vec2 seen = hasShares == 0 ? vec2(1.0, 0.0)
-    : reconstruction != 0    ? reconstructShare(texel)
-                             : seenShare(texel);
-  vec3 unblocked = channels * texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
-  gl_FragData[0] = vec4(unblocked * seen.r, dot(unblocked, vec3(1.0 / 3.0)) * (1.0 - seen.r));
-  float error = dot(unblocked * reflectance, vec3(1.0 / 3.0)) * seen.g;
-  gl_FragData[1] = vec4(varianceFactor * error * error, 0.0, 0.0, 0.0);
+  vec3 seen = vec3(1.0);
+  vec3 halves = vec3(0.0);
+  if (shareCount > 0)
+  {
+    vec2 red = findShare(shares, texel);
+    vec2 green = shareCount > 1 ? findShare(greenShares, texel) : red;
+    vec2 blue = shareCount > 1 ? findShare(blueShares, texel) : red;
+    seen = vec3(red.r, green.r, blue.r);
+    halves = vec3(red.g, green.g, blue.g);
+  }
+  vec3 unblocked = texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
+  gl_FragData[0] = vec4(unblocked * seen, dot(unblocked * (1.0 - seen), vec3(1.0 / 3.0)));
+  float error = dot(unblocked * reflectance * halves, vec3(1.0 / 3.0));
+  gl_FragData[1] = vec4(error * error, 0.0, 0.0, 0.0);
 }
