@@ -16,6 +16,8 @@
 #include "vtkVisibilityShare.h"
 
 #include <algorithm>
+#include <memory>
+#include <string>
 
 vtkStandardNewMacro(vtkRadianceResolver);
 
@@ -40,13 +42,16 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Chosen = options;
   this->Texels = texels;
   this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
-  this->Program = penumbra::ReadyFullScreenProgram(window, vtkRadianceResolveFS);
+  this->ShareCount = seen.HasOneHue() ? 1 : 3;
+  std::string source = vtkRadianceResolveFS;
+  vtkShaderProgram::Substitute(
+    source, "//Penumbra::Shares::Dec", "#define SHARES " + std::to_string(this->ShareCount));
+  this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
     vtkErrorMacro("The shader that resolves shadows did not compile.");
     return false;
   }
-  this->ShareCount = seen.HasOneHue() ? 1 : 3;
   const int shareRows = options.InBatches ? texels.y : this->StripRows + 2 * this->GetHalo();
   bool isReady = this->ClosedForm->Begin(window, frame, seen, texels, this->StripRows);
   for (int i = 0; i < this->ShareCount; ++i)
@@ -135,8 +140,7 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
     state, program, "closedForm", GL_TEXTURE_2D, this->ClosedForm->GetTexture()->GetHandle());
   program->SetUniformi("firstRow", firstRow);
   program->SetUniformi("reconstruction", this->Chosen.Reconstruction ? 1 : 0);
-  const int count = shares == Shares::None ? 0 : this->ShareCount;
-  program->SetUniformi("shareCount", count);
+  program->SetUniformi("hasShares", shares == Shares::None ? 0 : 1);
   program->SetUniformi(
     "sharesFirstRow", shares == Shares::Strip ? std::max(firstRow - this->GetHalo(), 0) : 0);
   program->SetUniform2i("regionOrigin", &region.Origin.x);
@@ -144,11 +148,13 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
   target->BindAsTarget(region, firstRow, lastRow, add);
-  const auto getShare = [&](int i)
-  { return count == 0 ? 0 : this->Share[std::min(i, count - 1)]->GetTexture()->GetHandle(); };
-  const penumbra::ScopedTexture red(state, program, "shares", GL_TEXTURE_2D, getShare(0));
-  const penumbra::ScopedTexture green(state, program, "greenShares", GL_TEXTURE_2D, getShare(1));
-  const penumbra::ScopedTexture blue(state, program, "blueShares", GL_TEXTURE_2D, getShare(2));
+  constexpr const char* samplers[] = { "shares", "greenShares", "blueShares" };
+  std::vector<std::unique_ptr<penumbra::ScopedTexture>> textures;
+  for (int i = 0; i < this->ShareCount; ++i)
+  {
+    textures.push_back(std::make_unique<penumbra::ScopedTexture>(state, program, samplers[i],
+      GL_TEXTURE_2D, shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle()));
+  }
   penumbra::DrawFullScreenTriangle();
 }
 

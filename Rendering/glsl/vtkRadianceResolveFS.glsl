@@ -13,11 +13,15 @@
 
 uniform sampler2D closedForm; // irradiance / pi of the unoccluded light, in rows from firstRow on
 uniform int firstRow;
-uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on; of red alone
-uniform sampler2D greenShares; // if the components' differ
+// SHARES says how many: 1 if the components have one share, 3 if each has its own.
+//Penumbra::Shares::Dec
+uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on
+#if SHARES == 3
+uniform sampler2D greenShares; // those above are of red
 uniform sampler2D blueShares;
+#endif
 uniform int sharesFirstRow;
-uniform int shareCount;       // 0: nothing blocks; 1: the components have one share; 3: each has its own
+uniform int hasShares;        // 0: nothing blocks
 uniform int reconstruction;   // are shares filtered across texels?
 uniform ivec2 regionOrigin;   // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
@@ -78,11 +82,16 @@ void main()
   ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
   vec3 seen = vec3(1.0);
   vec3 halves = vec3(0.0);
-  if (shareCount > 0)
+  if (hasShares != 0)
   {
     vec2 red = findShare(shares, texel);
-    vec2 green = shareCount > 1 ? findShare(greenShares, texel) : red;
-    vec2 blue = shareCount > 1 ? findShare(blueShares, texel) : red;
+#if SHARES == 3
+    vec2 green = findShare(greenShares, texel);
+    vec2 blue = findShare(blueShares, texel);
+#else
+    vec2 green = red;
+    vec2 blue = red;
+#endif
     seen = vec3(red.r, green.r, blue.r);
     halves = vec3(red.g, green.g, blue.g);
   }
