@@ -16,6 +16,8 @@
 #include "vtkVisibilityShare.h"
 
 #include <algorithm>
+#include <memory>
+#include <string>
 
 vtkStandardNewMacro(vtkRadianceResolver);
 
@@ -40,13 +42,16 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Chosen = options;
   this->Texels = texels;
   this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
-  this->Program = penumbra::ReadyFullScreenProgram(window, vtkRadianceResolveFS);
+  this->ShareCount = seen.HasOneHue() ? 1 : 3;
+  std::string source = vtkRadianceResolveFS;
+  vtkShaderProgram::Substitute(
+    source, "//Penumbra::Shares::Dec", "#define SHARES " + std::to_string(this->ShareCount));
+  this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
     vtkErrorMacro("The shader that resolves shadows did not compile.");
     return false;
   }
-  this->ShareCount = seen.HasOneHue() ? 1 : 3;
   const int shareRows = options.InBatches ? texels.y : this->StripRows + 2 * this->GetHalo();
   bool isReady = this->ClosedForm->Begin(window, frame, seen, texels, this->StripRows);
   for (int i = 0; i < this->ShareCount; ++i)
@@ -142,22 +147,15 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   program->SetUniform2i("regionSize", &region.Size.x);
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
-  const int count = shares == Shares::None ? 1 : this->ShareCount;
-  program->SetUniformf("varianceFactor", static_cast<float>(count));
   target->BindAsTarget(region, firstRow, lastRow, add);
-  for (int i = 0; i < count; ++i)
+  constexpr const char* samplers[] = { "shares", "greenShares", "blueShares" };
+  std::vector<std::unique_ptr<penumbra::ScopedTexture>> textures;
+  for (int i = 0; i < this->ShareCount; ++i)
   {
-    glm::vec3 channels(count > 1 ? 0.0f : 1.0f);
-    channels[i] = 1.0f;
-    program->SetUniform3f("channels", &channels.x);
-    const penumbra::ScopedTexture share(state, program, "shares", GL_TEXTURE_2D,
-      shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle());
-    penumbra::DrawFullScreenTriangle();
-    if (!add && i == 0 && count > 1)
-    {
-      target->BindAsTarget(region, firstRow, lastRow, true);
-    }
+    textures.push_back(std::make_unique<penumbra::ScopedTexture>(state, program, samplers[i],
+      GL_TEXTURE_2D, shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle()));
   }
+  penumbra::DrawFullScreenTriangle();
 }
 
 std::size_t vtkRadianceResolver::GetBytes() const

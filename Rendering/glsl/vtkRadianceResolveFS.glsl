@@ -8,24 +8,29 @@
 // Hill and McGuire 2018), and the variance of that share.
 // Output 0: irradiance / pi in rgb, and in a what is blocked, in the mean of the components: 0, to the bit,
 // where nothing is.
-// Output 1: in r, the variance of the mean of rgb once they are reflected.
+// Output 1: in r, the variance of the mean of rgb once they are reflected. The components' errors are added
+// with their signs: they come of the same samples, and may be alike or cancel.
 
 uniform sampler2D closedForm; // irradiance / pi of the unoccluded light, in rows from firstRow on
 uniform int firstRow;
+// SHARES says how many: 1 if the components have one share, 3 if each has its own.
+//Penumbra::Shares::Dec
 uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on
+#if SHARES == 3
+uniform sampler2D greenShares; // those above are of red
+uniform sampler2D blueShares;
+#endif
 uniform int sharesFirstRow;
 uniform int hasShares;        // 0: nothing blocks
 uniform int reconstruction;   // are shares filtered across texels?
 uniform ivec2 regionOrigin;   // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
-uniform vec3 channels;        // 1 for the components that the share is of
-uniform float varianceFactor; // 3 if the components' shares come one by one: their errors may be alike
 uniform vec3 reflectance;     // for the variance alone
 
 // What a texel sees of the light, and half the difference of what the halves of the samples say.
-vec2 seenShare(ivec2 texel)
+vec2 seenShare(sampler2D source, ivec2 texel)
 {
-  return texelFetch(shares, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
+  return texelFetch(source, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
 }
 
 // The quadratic that fits the shares of a window of texels best, by least squares (Savitzky and Golay 1964, in
@@ -38,7 +43,7 @@ struct Fit
   bool isPenumbra;  // are all texels partly lit?
 };
 
-Fit fitWindow(ivec2 texel, int radius, vec2 centre)
+Fit fitWindow(sampler2D source, ivec2 texel, int radius, vec2 centre)
 {
   // The basis 1, x, y, xy, x^2 - m2, y^2 - m2 is orthogonal over the window; m2 and m4 are the means of x^2
   // and x^4 over a row.
@@ -57,7 +62,7 @@ Fit fitWindow(ivec2 texel, int radius, vec2 centre)
   {
     for (int i = -radius; i <= radius; ++i)
     {
-      vec2 s = seenShare(texel + ivec2(i, j));
+      vec2 s = seenShare(source, texel + ivec2(i, j));
       isPenumbra = isPenumbra && s.r > 0.0 && s.r < 1.0;
       variances += s.g * s.g;
       s.r -= centre.r; // squares of small numbers lose fewer digits
@@ -80,8 +85,7 @@ Fit fitWindow(ivec2 texel, int radius, vec2 centre)
 
 // The part of a fit to be taken whose residual is that much of its error: where the quadratic explains the
 // shares to within their own errors there is nothing that it could smear, such as the crease where a penumbra
-// begins. Half the difference of two halves overestimates the error by about 1.5 (DESIGN 3: their mean is the
-// better stratified), hence limits near 1.
+// begins. Half the difference of two halves overestimates the error by about 1.5, hence limits near 1.
 float getTrust(Fit fit, float low, float high)
 {
   return fit.isPenumbra ? 1.0 - smoothstep(low, high, fit.residual / fit.error) : 0.0;
@@ -90,9 +94,9 @@ float getTrust(Fit fit, float low, float high)
 // Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel: within
 // penumbras, shares are fitted in windows as wide as a quadratic explains. Measured on 256 x 256 texels at n =
 // 1024, this takes the RMS error from 1.1e-3 to 4e-4 in a wide penumbra, for a tenth more time.
-vec2 reconstructShare(ivec2 texel)
+vec2 reconstructShare(sampler2D source, ivec2 texel)
 {
-  vec2 share = seenShare(texel);
+  vec2 share = seenShare(source, texel);
   int room = min(min(texel.x, texel.y), min(regionSize.x - 1 - texel.x, regionSize.y - 1 - texel.y));
   if (share.r <= 0.0 || share.r >= 1.0 || room < 1)
   {
@@ -100,31 +104,48 @@ vec2 reconstructShare(ivec2 texel)
   }
   vec2 centre = share;
   // The three degrees of freedom that 3x3 texels leave say little; what the fit changes says more.
-  Fit fit = fitWindow(texel, 1, centre);
+  Fit fit = fitWindow(source, texel, 1, centre);
   float change = abs(fit.share.r - centre.r) / fit.error;
   share = mix(share, fit.share, fit.isPenumbra ? 1.0 - smoothstep(0.5, 2.0, change) : 0.0);
   if (room >= 2)
   {
-    fit = fitWindow(texel, 2, centre);
+    fit = fitWindow(source, texel, 2, centre);
     share = mix(share, fit.share, getTrust(fit, 1.0, 1.3));
   }
   if (room >= 3)
   {
-    fit = fitWindow(texel, 3, centre);
+    fit = fitWindow(source, texel, 3, centre);
     share = mix(share, fit.share, getTrust(fit, 0.9, 1.1));
   }
   return vec2(clamp(share.r, 0.0, 1.0), share.g);
+}
+
+vec2 findShare(sampler2D source, ivec2 texel)
+{
+  return reconstruction != 0 ? reconstructShare(source, texel) : seenShare(source, texel);
 }
 
 void main()
 {
   // Around the receiver, its edge's texels are repeated: see vtkRadianceTexture.
   ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
-  vec2 seen = hasShares == 0 ? vec2(1.0, 0.0)
-    : reconstruction != 0    ? reconstructShare(texel)
-                             : seenShare(texel);
-  vec3 unblocked = channels * texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
-  gl_FragData[0] = vec4(unblocked * seen.r, dot(unblocked, vec3(1.0 / 3.0)) * (1.0 - seen.r));
-  float error = dot(unblocked * reflectance, vec3(1.0 / 3.0)) * seen.g;
-  gl_FragData[1] = vec4(varianceFactor * error * error, 0.0, 0.0, 0.0);
+  vec3 seen = vec3(1.0);
+  vec3 halves = vec3(0.0);
+  if (hasShares != 0)
+  {
+    vec2 red = findShare(shares, texel);
+#if SHARES == 3
+    vec2 green = findShare(greenShares, texel);
+    vec2 blue = findShare(blueShares, texel);
+#else
+    vec2 green = red;
+    vec2 blue = red;
+#endif
+    seen = vec3(red.r, green.r, blue.r);
+    halves = vec3(red.g, green.g, blue.g);
+  }
+  vec3 unblocked = texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
+  gl_FragData[0] = vec4(unblocked * seen, dot(unblocked * (1.0 - seen), vec3(1.0 / 3.0)));
+  float error = dot(unblocked * reflectance * halves, vec3(1.0 / 3.0));
+  gl_FragData[1] = vec4(error * error, 0.0, 0.0, 0.0);
 }

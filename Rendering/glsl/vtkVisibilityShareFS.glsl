@@ -6,7 +6,9 @@
 
 // Counts the masks of one light: the share of its samples that each texel sees, weighted by what each would
 // contribute (Heitz, Hill and McGuire 2018).
-// Output 0: in r the share, in g half of what the two halves of the samples differ by: a standard error.
+// Output 0: in r the share, in g half of what the two halves of the samples differ by: a standard error. Of
+// independent samples it would be that of their mean. Halves of a scrambled net, whose errors fall as n^-3/4,
+// are each 2^3/4 times as far out as the whole: it is then 2^1/4 too large, or more (TestErrorEstimate).
 
 //Penumbra::Texel::Dec
 

@@ -9,8 +9,14 @@
 // are independent, half their difference is expected to be 1/2 sqrt(2) (n/2)^-3/4, which is 2^1/4
 // times n^-3/4: the true error is 0.84 of the estimate. Halves of one net do better together than
 // independent ones would, and shares that are filtered across texels have errors that are less
-// alike than their halves'. Measured over these scenes: 0.75 in the middle, and 0.57 to 1.06 for
-// nine in ten of them.
+// alike than their halves'. Measured over these scenes: 0.78 in the middle by 64 samples and 0.89
+// by 1024, and 0.57 to 1.2 for nine in ten of them.
+//
+// Other patterns, measured in the same way: by 64 and by 1024 samples, the estimate is within the
+// bounds for 88 % and 95 % of the scenes by correlated multi-jittered samples, 95 % and 98 % by the
+// jittered grid, 62 % and 57 % by the uniform grid, whose error is no chance and repeats in its
+// halves, and 82 % by random samples, which are the same for all texels: their halves agree or not
+// by chance, and all texels with them.
 //
 // Where it cannot be right. A point and a sun of no size have hard shadows, which no sample betrays
 // if the texel's centre is on the wrong side of an edge. OpenGL rounds an occluder's corners on the

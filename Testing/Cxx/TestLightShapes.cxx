@@ -286,7 +286,6 @@ TEST_P(LightKinds, ClippedHasItsSamplesInFront)
   }
 }
 
-// Only what clipping leaves alone is asked: the whole sun.
 namespace
 {
 

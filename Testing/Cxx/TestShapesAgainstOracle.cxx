@@ -274,7 +274,7 @@ TEST_P(OccludedShape, IsWithinBoundsAt1024Samples)
   EXPECT_LE(error.RootMeanSquare, bound);
 }
 
-// The bound would notice if nothing were blocked.
+// The bounds, 4e-3 at most, would notice if nothing were blocked.
 TEST_P(OccludedShape, IsFarFromUnoccluded)
 {
   const RandomScene scene = this->GetParam().MakeScene();
