@@ -48,6 +48,9 @@ const std::vector<Maker>& GetMakers()
       { Orange, vtkPlotPoints::SQUARE } },
     { LiteralName, "", "H&H loop, Sobol", { Vermilion, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE } },
     { RaysName, "", "Embree rays, Sobol", { Black, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE } },
+    { CountsName, "", "masks, Sobol, no reconstruction", { Blue, vtkPlotPoints::CROSS } },
+    { ToleranceName, "", "masks, ErrorTolerance",
+      { Vermilion, vtkPlotPoints::CIRCLE, vtkPen::SOLID_LINE, 1.0f } },
     { MasksName, "Sobol", "masks, Sobol",
       { Blue, vtkPlotPoints::CIRCLE, vtkPen::SOLID_LINE, 3.0f } },
   };
@@ -164,7 +167,7 @@ bool PlotErrorAgainstSamples(
     for (const Maker& maker : GetMakers())
     {
       const Measurements curve = SelectMaker(measurements, scene.Name, maker);
-      if (curve.empty())
+      if (curve.empty() || maker.Technique == ToleranceName) // its n is an answer
       {
         continue;
       }

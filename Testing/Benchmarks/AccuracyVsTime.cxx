@@ -40,13 +40,14 @@ struct Plan
   int SphereRings = 14; ///< 8 736 triangles
   int MostSphereSamples = 1024;
   std::vector<int> EdgeTexels{ 16, 32, 64, 128, 256 };
+  std::vector<double> Tolerances{ 0.03, 0.01, 1.0 / 255.0, 0.002, 0.001 };
   bool IsWhole = true; ///< else only what must hold of any plan is judged
 };
 
 /// CI's: some seconds.
 Plan MakeSmallestPlan()
 {
-  return { 48, 1024, 2, 1, 4, 64, { 12, 24 }, false };
+  return { 48, 1024, 2, 1, 4, 64, { 12, 24 }, { 0.03 }, false };
 }
 
 /// What the study of texel sizes is made with: enough samples for texels to matter.
@@ -60,6 +61,8 @@ struct Case
   int Texels = 0; ///< along each edge
   int Supersampling = 1;
   int Samples = 1;
+  bool Reconstruction = true;
+  double Tolerance = 0.0; ///< 0: Samples are taken
 };
 
 /// One bake.
@@ -88,6 +91,8 @@ penumbra::ShadowScene MakeShadowScene(const StudyScene& scene, const Case& point
   receiver.Settings.SamplingPattern = point.Pattern;
   receiver.Settings.Supersampling = point.Supersampling;
   receiver.Settings.Seed = seed;
+  receiver.Settings.Reconstruction = point.Reconstruction;
+  receiver.Settings.ErrorTolerance = point.Tolerance;
   return result;
 }
 
@@ -271,6 +276,7 @@ Measurements Series::GetMeasurements() const
       m.Pattern = penumbra::GetSamplingPatterns()[static_cast<std::size_t>(point.Pattern)].Name;
       m.Texels = point.Texels;
       m.Supersampling = point.Supersampling;
+      m.Tolerance = point.Tolerance;
       m.Samples = this->Samples[i];
       m.Seconds = GetMedian(this->Seconds[i]);
       m.RootMeanSquare = std::sqrt(error.Squares / static_cast<double>(error.Count)) / peak;
@@ -307,10 +313,16 @@ std::vector<Trial> MakeSampleTrials(
     {
       trials.push_back({ MasksName, &techniques.Product, { pattern, plan.Texels, 1, n } });
     }
+    trials.push_back({ CountsName, &techniques.Product, { 0, plan.Texels, 1, n, false } });
     trials.push_back({ LiteralName, &techniques.Loop, { 0, plan.Texels, 1, n } });
 #ifdef PENUMBRA_EMBREE_VERSION
     trials.push_back({ RaysName, &techniques.Peer, { 0, plan.Texels, 1, n } });
 #endif
+  }
+  for (const double tolerance : plan.Tolerances)
+  {
+    trials.push_back(
+      { ToleranceName, &techniques.Product, { 0, plan.Texels, 1, 1, true, tolerance } });
   }
   return trials;
 }
@@ -354,7 +366,7 @@ Measurements MeasureTexels(const Plan& plan, Techniques& techniques, const Study
 /// Everything that was measured.
 struct Study
 {
-  std::vector<StudyScene> Scenes;           ///< the last is Spheres
+  std::vector<StudyScene> Scenes;           ///< the first three are judged by their errors
   std::vector<std::vector<double>> Centres; ///< of each: exact, at the texels' centres
   Measurements Samples;                     ///< error against n and time
   Measurements Texels;                      ///< error against the size of texels
@@ -364,7 +376,7 @@ Study Measure(const Plan& plan)
 {
   Techniques techniques;
   Study study;
-  study.Scenes = { MakeContactScene(), MakePenumbraScene(), MakeOverlapScene(),
+  study.Scenes = { MakeContactScene(), MakePenumbraScene(), MakeOverlapScene(), MakeLatticeScene(),
     MakeSpheresScene(plan.SphereRings) };
   for (const StudyScene& scene : study.Scenes)
   {
@@ -386,7 +398,8 @@ Study Measure(const Plan& plan)
   return study;
 }
 
-/// What issue 3 asks for: errors on the scenes before the last, times on all.
+/// What issue 3 asks for: errors on the first scenes, times on all.
+constexpr std::size_t JudgedScenes = 3;
 constexpr int JudgedSamples = 1024;
 constexpr double LargestRootMeanSquare = 6e-4;
 constexpr double LargestMaximum = 5e-3;
@@ -411,14 +424,14 @@ void PrintTables(const Plan& plan, const Study& study)
 {
   std::printf(
     "%d x %d texels; medians and errors of %d runs, each with its seed; errors as shares "
-    "of the peak\n\n| scene | triangles | technique | pattern | n | seconds | (hierarchy) "
-    "| RMS | maximum |\n|---|---|---|---|---|---|---|---|---|\n",
+    "of the peak\n\n| scene | triangles | technique | pattern | tolerance | n | seconds | "
+    "(hierarchy) | RMS | maximum |\n|---|---|---|---|---|---|---|---|---|---|\n",
     plan.Texels, plan.Texels, plan.Runs);
   for (const Measurement& m : study.Samples)
   {
-    std::printf("| %s | %zu | %s | %s | %d | %.4f | %.4f | %.2e | %.2e |\n", m.Scene.c_str(),
-      m.Triangles, m.Technique.c_str(), m.Pattern.c_str(), m.Samples, m.Seconds, m.BuildSeconds,
-      m.RootMeanSquare, m.Maximum);
+    std::printf("| %s | %zu | %s | %s | %.4f | %d | %.4f | %.4f | %.2e | %.2e |\n", m.Scene.c_str(),
+      m.Triangles, m.Technique.c_str(), m.Pattern.c_str(), m.Tolerance, m.Samples, m.Seconds,
+      m.BuildSeconds, m.RootMeanSquare, m.Maximum);
   }
   std::printf(
     "\n| scene | technique | exponent of RMS against n | from n = %d on | seconds at RMS %.0e |\n"
@@ -426,7 +439,7 @@ void PrintTables(const Plan& plan, const Study& study)
     FewestSettled, JudgedRootMeanSquare);
   for (const StudyScene& scene : study.Scenes)
   {
-    for (const char* technique : { MasksName, LiteralName, RaysName })
+    for (const char* technique : { MasksName, CountsName, LiteralName, RaysName })
     {
       const Measurements curve = GetCurve(study, scene, technique);
       const std::optional<double> seconds = GetSecondsAt(curve, JudgedRootMeanSquare);
@@ -514,10 +527,10 @@ bool Judge(const Plan& plan, const Study& study)
   bool good = true;
   for (const StudyScene& scene : study.Scenes)
   {
-    const bool isLast = &scene == &study.Scenes.back();
+    const bool isJudged = &scene < &study.Scenes[JudgedScenes];
     good &= Require(FitRootMeanSquare(GetCurve(study, scene, MasksName)).Exponent < RandomExponent,
       scene.Name + ": the default pattern must do better than random points");
-    good &= !plan.IsWhole || isLast || JudgeErrors(study, scene);
+    good &= !plan.IsWhole || !isJudged || JudgeErrors(study, scene);
     good &= !plan.IsWhole || JudgeTimes(study, scene);
   }
   return good;

@@ -170,10 +170,31 @@ StudyScene MakePenumbraScene()
 
 StudyScene MakeOverlapScene()
 {
+  constexpr int Rows = 6;
+  StudyScene scene = MakeScene(
+    "overlap", "Overlap: 36 plates at six heights", MakeLight({ 0.1, -0.1, 3.0 }, 1.0, 0.9, 0.4));
+  TestScene plates;
+  for (int j = 0; j < Rows; ++j)
+  {
+    for (int i = 0; i < Rows; ++i)
+    {
+      // No two neighbours at the same height, and tilts of all signs.
+      const double height = 0.3 + 0.15 * ((7 * i + 3 * j) % Rows);
+      plates.AddPlate({ 0.5 * i - 1.5, 0.5 * j - 1.5, height },
+        { 0.22, 0.05 * ((i + j) % 3), 0.03 }, { -0.03, 0.2, 0.02 * (i % 3) });
+    }
+  }
+  AddTurned(scene.Exact, plates, 0.0);
+  scene.Baked = scene.Exact.MakeScene();
+  return scene;
+}
+
+StudyScene MakeLatticeScene()
+{
   constexpr int Layers = 4, Slats = 12;
   constexpr double Pitch = 0.22, Width = 0.08, Length = 2.6;
   StudyScene scene = MakeScene(
-    "overlap", "Overlap: a lattice of 48 slats", MakeLight({ 0.2, -0.1, 3.0 }, 1.0, 0.8, 0.4));
+    "lattice", "Lattice: 48 slats in four layers", MakeLight({ 0.2, -0.1, 3.0 }, 1.0, 0.8, 0.4));
   for (int layer = 0; layer < Layers; ++layer)
   {
     TestScene slats;
