@@ -64,7 +64,7 @@ def check_tolerances():
         check_met(f"tolerance {tolerance:.2g}", grid, tolerance)
         true = numpy.sqrt(numpy.mean((cell_array(grid, "Radiance") - exact) ** 2))
         # Issue 3: the true error lies within twice the estimated one.
-        checks.at_most(true, 2 * tolerance * peak, f"tolerance {tolerance:.2g}: true error, at twice tolerance times peak")
+        checks.at_most(true, 2 * tolerance * peak, f"tolerance {tolerance:.2g}: true error, at twice that")
         counts += field(grid, "LightSamples")
     checks.equal(counts, sorted(counts), "samples for ever smaller tolerances")
     checks.at_least(counts[-1], 2 * counts[0], "samples for the smallest tolerance")
@@ -209,7 +209,7 @@ def check_solid_angle_of_lights():
 
 
 def check_reconstruction():
-    """Filtering visibility across texels lowers the error at the same samples, and leaves lit and umbral texels alone."""
+    """Filtering visibility across texels lowers the error at the same samples, and leaves the umbra alone."""
     scene = make_scene(texel_size=0.05, light_samples=16384)
     (grid,) = bake([scene.receiver], [scene.sphere], [scene.light])
     exact = cell_array(grid, "Radiance")

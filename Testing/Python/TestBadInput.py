@@ -136,7 +136,8 @@ def check_lights():
     """Lights of each shape that make no sense."""
     nan = float("nan")
     for shape, name, value, *words in (
-        ("Disk", "Point1", [1, -1, 6], "area"), ("Disk", "Point2", [1, 3, 6], "area"), ("Disk", "Origin", [0, nan, 0], "nan"),
+        ("Disk", "Point1", [1, -1, 6], "area"), ("Disk", "Point2", [1, 3, 6], "area"),
+        ("Disk", "Origin", [0, nan, 0], "Origin", "nan"),
         ("Segment", "Point1", [1, -1, 6], "Point1", "0; allowed"), ("Segment", "Origin", [nan, 0, 0], "Origin", "nan"),
         ("Point", "Origin", [nan, 0, 0], "Origin", "nan"), ("Point", "Radiance", [1, 2, nan], "Radiance", "nan"),
         ("Directional", "Point1", [1, -1, 6], "Point1", "0; allowed"),

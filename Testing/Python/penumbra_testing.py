@@ -157,8 +157,8 @@ def cell_centers(grid):
 
 
 def form_factor(points, normal, polygon):
-    """Lambert's edge formula: the form factor at each point of a polygon that lies above the receiver. `polygon` has the
-    shape (corners, 3), or one more for each of the points; corners at the same place make an edge of no length."""
+    """Lambert's edge formula: the form factor at each point of a polygon that lies above the receiver. `polygon` has
+    the shape (corners, 3), or one for each point; corners at the same place make an edge of no length."""
     rays = polygon - points[..., None, :]
     rays /= numpy.linalg.norm(rays, axis=-1, keepdims=True)
     following = numpy.roll(rays, -1, axis=-2)
