@@ -85,6 +85,17 @@ std::string FindArrayProblem(vtkDataArray* array, const std::string& name)
 vtkAreaLightFromSurface::vtkAreaLightFromSurface() = default;
 vtkAreaLightFromSurface::~vtkAreaLightFromSurface() = default;
 
+void vtkAreaLightFromSurface::SetRadianceArray(const std::string& name)
+{
+  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, name.c_str());
+}
+
+std::string vtkAreaLightFromSurface::GetRadianceArray()
+{
+  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+  return name ? name : "";
+}
+
 int vtkAreaLightFromSurface::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -93,19 +104,18 @@ int vtkAreaLightFromSurface::RequestData(
   settings.Radiance = glm::make_vec3(this->Radiance);
   settings.TwoSided = this->TwoSided;
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
-  const bool hasArray = !this->RadianceArray.empty() && this->RadianceArray != "None";
+  const std::string name = this->GetRadianceArray();
+  const bool hasArray = !name.empty() && name != "None";
   std::string problem = settings.FindProblem();
   if (problem.empty() && hasArray)
   {
-    problem = FindArrayProblem(
-      input->GetCellData()->GetArray(this->RadianceArray.c_str()), this->RadianceArray);
+    problem = FindArrayProblem(input->GetCellData()->GetArray(name.c_str()), name);
   }
   vtkSmartPointer<vtkPolyData> polygons;
   if (problem.empty())
   {
     polygons = MakePolygons(input);
-    vtkDataArray* array =
-      hasArray ? polygons->GetCellData()->GetArray(this->RadianceArray.c_str()) : nullptr;
+    vtkDataArray* array = hasArray ? polygons->GetCellData()->GetArray(name.c_str()) : nullptr;
     vtkNew<vtkDoubleArray> radiance;
     radiance->SetName(vtkShadowFieldData::GetRadianceArrayName());
     radiance->SetNumberOfComponents(3);
@@ -133,7 +143,7 @@ int vtkAreaLightFromSurface::RequestData(
 void vtkAreaLightFromSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "RadianceArray: " << this->RadianceArray << "\n";
+  os << indent << "RadianceArray: " << this->GetRadianceArray() << "\n";
   os << indent << "Radiance: (" << this->Radiance[0] << ", " << this->Radiance[1] << ", "
      << this->Radiance[2] << ")\n";
   os << indent << "TwoSided: " << this->TwoSided << "\n";

@@ -37,9 +37,12 @@ public:
   /**
    * The cell array of emitted radiance, W sr^-1 m^-2, with one component (grey) or three (red,
    * green, blue), 0 to 1e30 each. Default is empty (as is "None"): all cells emit Radiance.
+   *
+   * It is SetInputArrayToProcess() of index 0, of which only the name counts: where ParaView's
+   * scripts give none, they associate a name with points.
    */
-  vtkSetMacro(RadianceArray, std::string);
-  vtkGetMacro(RadianceArray, std::string);
+  void SetRadianceArray(const std::string& name);
+  std::string GetRadianceArray();
   ///@}
 
   ///@{
@@ -71,7 +74,6 @@ private:
   vtkAreaLightFromSurface(const vtkAreaLightFromSurface&) = delete;
   void operator=(const vtkAreaLightFromSurface&) = delete;
 
-  std::string RadianceArray;
   double Radiance[3] = { 1.0, 1.0, 1.0 };
   bool TwoSided = false;
 };

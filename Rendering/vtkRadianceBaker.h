@@ -9,7 +9,8 @@
  * resolved (vtkRadianceResolver) into one texture. The view's pass and the RadianceMap filter both
  * bake by this class, so that the same scene gives the same texels, bit for bit.
  *
- * Nothing is read back. Masks are drawn in bands of rows of at most MaximumMaskBytes.
+ * Nothing is read back, but for ErrorTolerance. Masks are drawn in bands of rows of at most
+ * MaximumMaskBytes.
  */
 #ifndef vtkRadianceBaker_h
 #define vtkRadianceBaker_h

@@ -121,7 +121,8 @@ def check_tiny_texels():
 def check_properties():
     for name, value in (
         ("TexelSize", -1.0), ("LightSamples", 0), ("SampleMultiplier", -2.0), ("Reflectance", [2.0, 0.0, 0.0]),
-        ("AmbientRadiance", [-1.0, 0.0, 0.0])):
+        ("AmbientRadiance", [-1.0, 0.0, 0.0]), ("SolidAnglePerSample", -0.5), ("ErrorTolerance", -0.25),
+        ("ErrorTolerance", 2.0), ("MaximumLightSamples", 0), ("MaximumLightSamples", 65537)):
         scene = make_scene()
         scene.receiver.SetPropertyWithName(name, value)
         written = f"{value[0]:g}" if isinstance(value, list) else f"{value:g}"
@@ -129,6 +130,73 @@ def check_properties():
     scene = make_scene()
     scene.light.Radiance = [-1, 0, 0]
     check_plain("Radiance", *check_case("Radiance -1", scene, "AreaLight", "Radiance", "-1", "allowed"))
+
+
+def check_lights():
+    """Lights of each shape that make no sense."""
+    nan = float("nan")
+    for shape, name, value, *words in (
+        ("Disk", "Point1", [1, -1, 6], "area"), ("Disk", "Point2", [1, 3, 6], "area"),
+        ("Disk", "Origin", [0, nan, 0], "Origin", "nan"),
+        ("Segment", "Point1", [1, -1, 6], "Point1", "0; allowed"), ("Segment", "Origin", [nan, 0, 0], "Origin", "nan"),
+        ("Point", "Origin", [nan, 0, 0], "Origin", "nan"), ("Point", "Radiance", [1, 2, nan], "Radiance", "nan"),
+        ("Directional", "Point1", [1, -1, 6], "Point1", "0; allowed"),
+        ("Directional", "AngularDiameter", 180.0, "AngularDiameter", "180", "less than 180"),
+        ("Directional", "AngularDiameter", -1.0, "AngularDiameter", "-1"),
+        ("Directional", "AngularDiameter", nan, "AngularDiameter", "nan")):
+        scene = make_scene()
+        scene.light.Shape = shape
+        scene.light.SetPropertyWithName(name, value)
+        title = f"{shape}, {name} {value}"
+        check_plain(title, *check_case(title, scene, "AreaLight", "allowed", *words))
+
+
+def make_surface(values=None, polygon=None):
+    """A light from a square of 2 x 2 cells with these values, or from one polygon."""
+    source = simple.Plane(Origin=[1, -1, 6], Point1=[1, 1, 6], Point2=[3, -1, 6], XResolution=2, YResolution=2)
+    if polygon:
+        source = simple.ProgrammableSource(OutputDataSetType="vtkPolyData")
+        source.Script = f"""
+import vtk
+points, polygons = vtk.vtkPoints(), vtk.vtkCellArray()
+nan = float("nan")
+for p in {polygon}:
+    points.InsertNextPoint(p)
+polygons.InsertNextCell(points.GetNumberOfPoints(), range(points.GetNumberOfPoints()))
+self.GetPolyDataOutput().SetPoints(points)
+self.GetPolyDataOutput().SetPolys(polygons)
+"""
+    light = simple.AreaLightFromSurface(Input=source)
+    if values:
+        light.Input = simple.PythonCalculator(
+            Input=source, ArrayAssociation="Cell Data", ArrayName="glass",
+            Expression=f"numpy.array({values})".replace("nan", "numpy.nan"))
+        light.RadianceArray = "glass"
+    return light
+
+
+def check_surface_lights():
+    nan = float("nan")
+    missing = make_surface()
+    missing.RadianceArray = "no such array"
+    negative = make_surface()
+    negative.Radiance = [1, -2, 1]
+    bent = [(1, -1, 6), (1, 1, 6), (3, 1, 6), (3, -1, 7)]
+    concave = [(1, -1, 6), (1, 1, 6), (1.2, -0.8, 6), (3, -1, 6)]
+    for name, light, *words in (
+        ("missing array", missing, "RadianceArray", "no such array", "cell array"),
+        ("two components", make_surface([[1.0, 2]] * 4), "glass", "2 components", "1 or 3"),
+        ("negative array", make_surface([1.0, -3, 1, 1]), "glass", "-3", "cell 1"),
+        ("array with NaN", make_surface([1.0, 1, nan, 1]), "glass", "nan", "cell 2"),
+        ("black array", make_surface([0.0] * 4), "radiance greater than 0"),
+        ("negative Radiance", negative, "Radiance", "-2"),
+        ("bent polygon", make_surface(polygon=bent), "polygon 0", "planar and convex"),
+        ("concave polygon", make_surface(polygon=concave), "polygon 0", "planar and convex"),
+        ("NaN in a polygon", make_surface(polygon=[(1, -1, 6), (1, nan, 6), (3, 1, 6)]), "polygon 0", "not finite"),
+        ("polygon without area", make_surface(polygon=[(1, -1, 6), (1, 1, 6), (1, 3, 6)]), "area")):
+        scene = make_scene()
+        scene.light = light
+        check_plain(name, *check_case(name, scene, "AreaLightFromSurface", "allowed", *words))
 
 
 def check_no_occluders():
@@ -155,5 +223,6 @@ def check_no_lights():
 
 
 CASES = [check_curved_receiver, check_empty_receiver, check_light_without_area, check_nan_receiver, check_nan_light,
-         check_nan_occluder, check_tiny_texels, check_properties, check_no_occluders, check_no_lights]
+         check_nan_occluder, check_tiny_texels, check_properties, check_lights,
+         check_surface_lights, check_no_occluders, check_no_lights]
 checks.run(CASES)

@@ -6,24 +6,12 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import VTK_DOUBLE
 
 from penumbra_testing import (
-    Checks, bake, cell_array, cell_centers, grid_points, load_plugin, make_scene, radiance_map, texels)
+    Checks, bake, cell_array, cell_centers, form_factor, grid_points, load_plugin, make_scene, radiance_map, texels)
 
 # Texels are single precision; issue 2 allows 1e-5 of the peak.
 LAMBERT_TOLERANCE = 1e-5
 
 checks = Checks()
-
-
-def form_factor(points, normal, polygon):
-    """Lambert's edge formula: the form factor of a polygon that lies above the receiver, counter-clockwise in its
-    emitting direction, at each point."""
-    rays = polygon - points[..., None, :]
-    rays /= numpy.linalg.norm(rays, axis=-1, keepdims=True)
-    following = numpy.roll(rays, -1, axis=-2)
-    cross = numpy.cross(rays, following)
-    sine = numpy.linalg.norm(cross, axis=-1)
-    angle = numpy.arctan2(sine, (rays * following).sum(-1))
-    return numpy.abs((angle / sine * (cross @ normal)).sum(-1)) / (2 * numpy.pi)
 
 
 def light_polygon(light):

@@ -3,9 +3,8 @@
 """The view and the filter RadianceMap run the same bake: the same scene gives the same texels, bit for bit."""
 import numpy
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from penumbra_testing import Checks, bake, cell_array, data_path, find_pass, load_plugin
+from penumbra_testing import Checks, bake, cell_array, data_path, load_plugin, texels_of_view
 
 checks = Checks()
 
@@ -43,9 +42,7 @@ def radiance_of_view(receivers, others):
         simple.Show(proxy, view)
     simple.ResetCamera(view)
     simple.Render(view)
-    shadows = find_pass(view)
-    view.GetRenderWindow().MakeCurrent()
-    return [vtk_to_numpy(shadows.GetTexels(i))[:, :3] for i in range(shadows.GetNumberOfReceivers())]
+    return texels_of_view(view)
 
 
 def settings_of_blocks(receivers):

@@ -17,14 +17,32 @@ def build():
     change(
         receiver, TexelSize=0.07, Supersampling="2", LightSamples=100, SampleMultiplier=1.5,
         SamplingPattern="Correlated Multi-Jittered", Seed=5, Reflectance=[0.9, 0.8, 0.7],
-        AmbientRadiance=[0.1, 0.05, 0.15], Side="Front")
+        AmbientRadiance=[0.1, 0.05, 0.15], Side="Front", SolidAnglePerSample=0.001, ErrorTolerance=0.01,
+        MaximumLightSamples=200, Reconstruction=0)
     light = simple.AreaLight(registrationName="Lamp")
     change(
         light, Shape="Triangle", Origin=[1, -1, 6], Point1=[1, 1, 6], Point2=[3, -1, 6], Radiance=[8.0, 6.0, 9.0],
-        TwoSided=1)
+        TwoSided=1, AngularDiameter=3.0)
+    sun = simple.AreaLight(registrationName="Sun")
+    change(sun, Shape="Directional", Origin=[0, 0, 5], Point1=[1, 0, 0], AngularDiameter=4.0, Radiance=[0.2, 0.3, 0.4])
+    window = make_window()
     sphere = simple.Sphere(registrationName="Ball", Center=[0, 0, 1.5], ThetaResolution=40, PhiResolution=40)
-    simple.RadianceMap(registrationName="Map", Receivers=[receiver], Occluders=[sphere], Lights=[light])
-    show(receiver, sphere, light)
+    simple.RadianceMap(registrationName="Map", Receivers=[receiver], Occluders=[sphere], Lights=[light, sun, window])
+    show(receiver, sphere, light, sun, window)
+
+
+def make_window():
+    """A light from the cells of a plane, with a colour for each."""
+    plane = simple.Plane(
+        registrationName="Pane", Origin=[-1, -4, 1], Point1=[-1, -4, 3], Point2=[1, -4, 1], XResolution=2,
+        YResolution=2)
+    glass = simple.PythonCalculator(registrationName="Glass", Input=plane)
+    change(
+        glass, ArrayAssociation="Cell Data", ArrayName="glass",
+        Expression="numpy.array([[9.0, 1, 1], [1, 9, 1], [1, 1, 9], [9, 9, 1]])")
+    window = simple.AreaLightFromSurface(registrationName="Window", Input=glass)
+    change(window, RadianceArray=["CELLS", "glass"], Radiance=[0.5, 0.6, 0.7], TwoSided=1)
+    return window
 
 
 def show(receiver, *others):

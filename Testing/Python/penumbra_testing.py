@@ -9,6 +9,7 @@ import os
 import sys
 from types import SimpleNamespace
 
+import numpy
 from paraview import servermanager, simple
 from penumbra.PenumbraRendering import vtkSoftShadowPass
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -155,6 +156,20 @@ def cell_centers(grid):
     return (points[:-1, :-1] + points[1:, 1:]) / 2
 
 
+def form_factor(points, normal, polygon):
+    """Lambert's edge formula: the form factor at each point of a polygon that lies above the receiver. `polygon` has
+    the shape (corners, 3), or one for each point; corners at the same place make an edge of no length."""
+    rays = polygon - points[..., None, :]
+    rays /= numpy.linalg.norm(rays, axis=-1, keepdims=True)
+    following = numpy.roll(rays, -1, axis=-2)
+    cross = numpy.cross(rays, following)
+    sine = numpy.linalg.norm(cross, axis=-1)
+    angle = numpy.arctan2(sine, (rays * following).sum(-1))
+    # An edge of no length has the angle 0 and adds nothing; the quotient's limit is 1.
+    quotient = numpy.divide(angle, sine, out=numpy.ones_like(sine), where=sine > 0)
+    return numpy.abs((quotient * (cross @ normal)).sum(-1)) / (2 * numpy.pi)
+
+
 def picture(view):
     """What the view draws now, as bytes with the shape (height, width, 3); row 0 is the lowest."""
     simple.Render(view)
@@ -182,3 +197,10 @@ def find_pass(view):
     while current and not isinstance(current, vtkSoftShadowPass):
         current = current.GetDelegatePass() if hasattr(current, "GetDelegatePass") else None
     return current
+
+
+def texels_of_view(view):
+    """Of each receiver that the view shades, the irradiance over pi of its texels, with the shape (texels, 3)."""
+    shadows = find_pass(view)
+    view.GetRenderWindow().MakeCurrent()
+    return [vtk_to_numpy(shadows.GetTexels(i))[:, :3] for i in range(shadows.GetNumberOfReceivers())]
