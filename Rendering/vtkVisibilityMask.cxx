@@ -113,14 +113,11 @@ void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
     vtkErrorMacro("The shader of the visibility masks did not compile.");
     return;
   }
-  // Row r of the receiver is row r - firstRow of the target, whose height is this->Height.
-  const float window[4] = { 2.0f,
-    2.0f * static_cast<float>(texels.y) / static_cast<float>(this->Height), -1.0f,
-    -2.0f * static_cast<float>(firstRow) / static_cast<float>(this->Height) - 1.0f };
-  program->SetUniform4f("windowTransform", window);
 
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
-  state->vtkglViewport(0, 0, this->Width, this->Height);
+  // Row r of the receiver is row r - firstRow of the target. The viewport is the whole receiver's,
+  // so that nothing is rounded otherwise for one band of rows than for another.
+  state->vtkglViewport(0, -firstRow, texels.x, texels.y);
   for (unsigned int capability : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
   {
     state->vtkglDisable(capability);

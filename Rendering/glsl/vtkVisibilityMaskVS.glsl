@@ -9,7 +9,6 @@
 in vec3 vertexUVH;
 
 uniform vec4 registration[32]; // xy: k.x and k.y of each sample; z: its height, 0 for a direction
-uniform vec4 windowTransform;  // (x', y') to clip coordinates: xy scales, zw times w' is added
 
 flat out uint sampleBit;
 out float gl_ClipDistance[2];
@@ -21,7 +20,7 @@ void main()
   vec3 to = registration[gl_InstanceID].xyz;
   float w = to.z > 0.0 ? (to.z - vertexUVH.z) / to.z : 1.0;
   vec2 p = vertexUVH.xy - to.xy * vertexUVH.z;
-  gl_Position = vec4(p * windowTransform.xy + w * windowTransform.zw, 0.0, w);
+  gl_Position = vec4(2.0 * p - w, 0.0, w); // [0, 1] w' is [-w, w]
   gl_ClipDistance[0] = vertexUVH.z;
   gl_ClipDistance[1] = w;
   sampleBit = 1u << uint(gl_InstanceID);
