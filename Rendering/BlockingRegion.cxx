@@ -13,8 +13,9 @@ namespace penumbra
 namespace
 {
 
-/// Of a light's points, the lowest height that is taken, in units of the receiver's size.
-constexpr double SmallestHeight = 1e-12;
+/// Of a light's points, the lowest height that is taken, in units of the receiver's size: what is
+/// lower is rounding.
+constexpr double SmallestHeight = std::numeric_limits<double>::epsilon();
 /// Of the numbers that a depth is the difference of: their rounding decides nothing.
 constexpr double Rounding = 1e-12;
 /// In units of the receiver's size. Floats of this size are good to 4e-6, a five-hundredth of a

@@ -25,12 +25,11 @@ constexpr double RoundingsOfPlane = 3.0;
 /// their own type, and that of the arithmetic in double. A frame takes differences and products of
 /// three terms, a plane three points: 16 roundings of the largest number that occurs. The normal of
 /// edges that are nearly parallel is that much less certain.
-glm::dvec3 GetUncertainty(
-  const penumbra::Surface& surface, const penumbra::Parallelogram& receiver)
+glm::dvec3 GetUncertainty(const penumbra::Surface& surface, const penumbra::Parallelogram& receiver)
 {
   constexpr double Roundings = 16.0;
-  glm::dvec3 largest = glm::abs(receiver.Corner) + glm::abs(receiver.EdgeX) +
-    glm::abs(receiver.EdgeY);
+  glm::dvec3 largest =
+    glm::abs(receiver.Corner) + glm::abs(receiver.EdgeX) + glm::abs(receiver.EdgeY);
   for (const glm::dvec3& p : surface.Points)
   {
     largest = glm::max(largest, glm::abs(p));
@@ -39,6 +38,16 @@ glm::dvec3 GetUncertainty(
     glm::length(glm::cross(receiver.EdgeX, receiver.EdgeY));
   return surface.Rounding +
     Roundings * std::numeric_limits<double>::epsilon() * skew * glm::length(largest);
+}
+
+/// Whether the triangle is as thin as the rounding of its points: its area is nothing else.
+bool IsDegenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  constexpr double Roundings = 16.0;
+  const glm::dvec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const double length = std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) });
+  return glm::length(glm::cross(b - a, c - a)) <= Roundings *
+    std::numeric_limits<double>::epsilon() * glm::length(largest + glm::dvec3(1.0)) * length;
 }
 
 /// Appends the surface's points in the receiver's frame.
@@ -87,9 +96,9 @@ void vtkOccluderGeometry::SetReceiver(const penumbra::ShadowScene& scene,
     {
       const auto& [a, b, c] = surface.Triangles[t];
       const bool isReceiver = s == receiver.Surface && surface.Regions[t] == receiver.Region;
-      const double highest = std::max(
-        { this->Points[first + a].z, this->Points[first + b].z, this->Points[first + c].z });
-      if (!isReceiver && highest > contact)
+      const glm::dvec3 &p = this->Points[first + a], &q = this->Points[first + b],
+                       &r = this->Points[first + c];
+      if (!isReceiver && std::max({ p.z, q.z, r.z }) > contact && !IsDegenerate(p, q, r))
       {
         part.Triangles.push_back({ first + a, first + b, first + c });
       }
