@@ -38,8 +38,8 @@ public:
 
   /// The unit normal, in the world, of the plane that a flat light lies in.
   const std::optional<glm::dvec3>& GetLightNormal() const { return this->LightNormal; }
-  /// Whether the triangle lies in that plane, up to a distance in the world: then it blocks nothing,
-  /// since rays meet the plane in the light alone.
+  /// Whether the triangle lies in that plane, up to a distance in the world: then it blocks
+  /// nothing, since rays meet the plane in the light alone.
   bool LiesInLight(
     const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tolerance) const;
 

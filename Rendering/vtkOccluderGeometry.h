@@ -79,8 +79,8 @@ private:
   using Triangle = penumbra::Surface::Triangle;
   void AddClipped(const Triangle& triangle, const penumbra::BlockingRegion& region);
 
-  std::vector<glm::dvec3> Points;  ///< of all surfaces, in the frame, then those that clipping made
-  std::size_t ScenePoints = 0;     ///< how many are the surfaces'
+  std::vector<glm::dvec3> Points; ///< of all surfaces, in the frame, then those that clipping made
+  std::size_t ScenePoints = 0;    ///< how many are the surfaces'
   /// Of each surface: all triangles that may block any light, and how far its points may be off, in
   /// the world, along each axis.
   struct Part

@@ -92,7 +92,8 @@ void SampledVisibility::AddImage(
   {
     const long double w = 1 - kz * p.Z;
     const std::array<long double, 2> at = { p.X, p.Y };
-    const std::array<long double, 2> shift = { sample.X / sample.Z * p.Z, sample.Y / sample.Z * p.Z };
+    const std::array<long double, 2> shift = { sample.X / sample.Z * p.Z,
+      sample.Y / sample.Z * p.Z };
     const std::array<int, 2> counts = { this->Texels.CountX, this->Texels.CountY };
     std::array<long double, 2> place;
     long double slack = 0;
@@ -100,10 +101,11 @@ void SampledVisibility::AddImage(
     {
       // u and k h are rounded; k h has three roundings (of k, of h, of the product), and so has w'.
       // What w' is off by counts as far as the image is from the origin: where texels are, that is
-      // at most 1.
+      // at most 1. What is beyond Reach is clipped before it is rounded.
       const long double numerator = at[axis] - shift[axis];
       const long double error = this->Tolerance.Rounding *
-        (this->Tolerance.Reach + 3 * std::abs(shift[axis]) + std::abs(numerator) + 3 * kz * p.Z);
+        (this->Tolerance.Reach + 3 * std::min(std::abs(shift[axis]), this->Tolerance.Reach) +
+          std::min(std::abs(numerator), this->Tolerance.Reach) + 3 * kz * p.Z);
       place[axis] = numerator / w * counts[axis];
       slack = std::max(slack, error / w * counts[axis]);
     }
@@ -122,8 +124,7 @@ void SampledVisibility::AddImage(
 }
 
 // Moeller and Trumbore 1997.
-bool SampledVisibility::IsBlocked(
-  const Vec3& x, const Vec3& sample, const Triangle& triangle) const
+bool SampledVisibility::IsBlocked(const Vec3& x, const Vec3& sample, const Triangle& triangle) const
 {
   const Vec3 edge1 = triangle.B - triangle.A;
   const Vec3 edge2 = triangle.C - triangle.A;
@@ -149,9 +150,8 @@ SeenShare SampledVisibility::GetShare(
     {
       const Corner &a = image.Corners[e], &b = image.Corners[(e + 1) % image.Corners.size()];
       const long double dx = b.X - a.X, dy = b.Y - a.Y, square = dx * dx + dy * dy;
-      const long double along = square > 0
-        ? std::clamp(((x - a.X) * dx + (y - a.Y) * dy) / square, 0.0L, 1.0L)
-        : 0.0L;
+      const long double along =
+        square > 0 ? std::clamp(((x - a.X) * dx + (y - a.Y) * dy) / square, 0.0L, 1.0L) : 0.0L;
       const long double away = std::hypot(a.X + along * dx - x, a.Y + along * dy - y);
       // 1 / w' is affine on the receiver, and so is the slack that it brings.
       if (away <= a.Slack + along * (b.Slack - a.Slack))

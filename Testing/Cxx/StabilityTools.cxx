@@ -4,6 +4,7 @@
 
 #include "SampledVisibility.h"
 #include "SamplingPattern.h"
+#include "vtkNew.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,17 @@ std::vector<glm::vec4> BakeTexels(TestScene scene)
 {
   scene.Settings.Reconstruction = false;
   return BakeReceiver(scene.MakeScene()).Texels.Irradiance;
+}
+
+std::vector<glm::vec4> BakeInBands(const TestScene& scene, std::size_t maskBytes)
+{
+  vtkNew<vtkRadianceBaker> baker;
+  vtkNew<vtkRadianceTexture> texture;
+  baker->SetMaximumMaskBytes(maskBytes);
+  baker->Bake(scene.MakeScene(), { 0 }, GetTestWindow(), texture);
+  std::vector<glm::vec4> texels = texture->Download(texture->GetRegions().front()).Irradiance;
+  texture->ReleaseGraphicsResources();
+  return texels;
 }
 
 CountError CompareWithCount(TestScene scene)

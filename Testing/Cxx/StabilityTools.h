@@ -48,6 +48,9 @@ void ExpectExactCount(const TestScene& scene, double open = 0.02);
 /// The irradiance of a bake without reconstruction.
 std::vector<glm::vec4> BakeTexels(TestScene scene);
 
+/// The irradiance, with masks of at most so many bytes at a time.
+std::vector<glm::vec4> BakeInBands(const TestScene& scene, std::size_t maskBytes);
+
 /// A light 1 x 1 in the plane z = 2, facing down, over the middle of the receiver of TestScene; 64
 /// samples, 32 x 32 texels.
 TestScene MakeLampScene();

@@ -84,8 +84,7 @@ TEST(StabilityOccluderAtReceiver, CoplanarBlocksNothing)
   TestScene slanted = MakeLampScene();
   slanted.Base = { { -2.1, -1.7, -0.6 }, { 4.0, 0.3, 0.7 }, { -0.3, 4.0, 0.1 } };
   const Texels plain = BakeTexels(slanted);
-  slanted.AddPlate(
-    slanted.Base.Corner + 0.31 * slanted.Base.EdgeX + 0.27 * slanted.Base.EdgeY,
+  slanted.AddPlate(slanted.Base.Corner + 0.31 * slanted.Base.EdgeX + 0.27 * slanted.Base.EdgeY,
     0.37 * slanted.Base.EdgeX, 0.43 * slanted.Base.EdgeY);
   ExpectWithin("coplanar plate, slanted", GetDifference(plain, BakeTexels(slanted)), 0.0);
 }
