@@ -13,8 +13,9 @@ namespace penumbra
 namespace
 {
 
-/// Of a light's points, the lowest height that is taken, in units of the receiver's size.
-constexpr double SmallestHeight = 1e-12;
+/// Of a light's points, the lowest height that is taken, in units of the receiver's size: what is
+/// lower is rounding.
+constexpr double SmallestHeight = std::numeric_limits<double>::epsilon();
 /// Of the numbers that a depth is the difference of: their rounding decides nothing.
 constexpr double Rounding = 1e-12;
 /// In units of the receiver's size. Floats of this size are good to 4e-6, a five-hundredth of a
@@ -44,6 +45,34 @@ std::vector<glm::dvec3> GetUpperHull(const std::vector<glm::dvec3>& points)
   return upper;
 }
 
+/// The unit normal of the plane through all points, if there is one. Points count as in it up to
+/// their rounding.
+std::optional<glm::dvec3> FindCommonNormal(const std::vector<glm::dvec3>& points)
+{
+  const glm::dvec3& origin = points.front();
+  double largest = 0.0;
+  glm::dvec3 farthest(0.0), normal(0.0);
+  for (const glm::dvec3& p : points)
+  {
+    largest = std::max({ largest, std::abs(p.x), std::abs(p.y), std::abs(p.z) });
+    farthest = glm::length(p - origin) > glm::length(farthest) ? p - origin : farthest;
+  }
+  for (const glm::dvec3& p : points)
+  {
+    const glm::dvec3 area = glm::cross(farthest, p - origin);
+    normal = glm::length(area) > glm::length(normal) ? area : normal;
+  }
+  if (!(glm::length(normal) > 0.0))
+  {
+    return std::nullopt;
+  }
+  normal = glm::normalize(normal);
+  const double tolerance = 16.0 * std::numeric_limits<double>::epsilon() * largest;
+  const bool isFlat = std::all_of(points.begin(), points.end(),
+    [&](const glm::dvec3& p) { return std::abs(glm::dot(p - origin, normal)) <= tolerance; });
+  return isFlat ? std::optional<glm::dvec3>(normal) : std::nullopt;
+}
+
 } // namespace
 
 BlockingRegion::BlockingRegion(const ReceiverFrame& frame, const LightShape& seen)
@@ -66,6 +95,26 @@ BlockingRegion::BlockingRegion(const ReceiverFrame& frame, const LightShape& see
     this->High = glm::max(this->High, glm::dvec2(k) - k.z);
     this->Top = std::max(this->Top, hull.AreDirections ? Infinity : p.z);
   }
+  if (!hull.AreDirections && !hull.Points.empty())
+  {
+    this->LightNormal = FindCommonNormal(hull.Points);
+  }
+  if (this->LightNormal)
+  {
+    const Parallelogram& base = frame.GetBase();
+    const glm::dvec3& n = *this->LightNormal;
+    this->LightPlane = { glm::dot(n, base.EdgeX), glm::dot(n, base.EdgeY),
+      glm::dot(n, frame.GetNormal()) * frame.GetSize(),
+      glm::dot(n, base.Corner - hull.Points.front()) };
+  }
+}
+
+bool BlockingRegion::LiesInLight(
+  const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tolerance) const
+{
+  const auto isNear = [&](const glm::dvec3& p)
+  { return std::abs(glm::dot(this->LightPlane, glm::dvec4(p, 1.0))) <= tolerance; };
+  return this->LightNormal && isNear(a) && isNear(b) && isNear(c);
 }
 
 double BlockingRegion::GetDepth(int plane, const glm::dvec3& p) const

@@ -11,6 +11,7 @@
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ReceiverFrame.h"
 
+#include <optional>
 #include <vector>
 
 namespace penumbra
@@ -35,6 +36,13 @@ public:
   /// Whether the triangle may have a point in the region: not if one plane has all three outside.
   bool MayHold(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
 
+  /// The unit normal, in the world, of the plane that a flat light lies in.
+  const std::optional<glm::dvec3>& GetLightNormal() const { return this->LightNormal; }
+  /// Whether the triangle lies in that plane, up to a distance in the world: then it blocks
+  /// nothing, since rays meet the plane in the light alone.
+  bool LiesInLight(
+    const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tolerance) const;
+
   /// Whether the point is so far away that single precision would move the edges that end there.
   static bool IsFar(const glm::dvec3& p);
 
@@ -48,6 +56,8 @@ private:
 
   glm::dvec2 Low{ 0.0 }, High{ 0.0 };
   double Top = 0.0;
+  std::optional<glm::dvec3> LightNormal;
+  glm::dvec4 LightPlane{ 0.0 }; ///< (u, v, h, 1) to the distance from it in the world
 };
 
 } // namespace penumbra

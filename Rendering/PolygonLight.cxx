@@ -127,16 +127,22 @@ PolygonLight PolygonLight::Transformed(const glm::dmat4& matrix) const
 PolygonLight PolygonLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const
 {
   std::vector<double> heights;
+  double largest = glm::length(point);
   for (const glm::dvec3& vertex : this->Vertices)
   {
     heights.push_back(glm::dot(vertex - point, normal));
+    largest = std::max(largest, glm::length(vertex));
+  }
+  // A light that lies in the plane, but for the rounding of a difference and three products, sends
+  // nothing along it.
+  const double rounding = 4.0 * DBL_EPSILON * largest;
+  if (std::all_of(heights.begin(), heights.end(), [&](double h) { return h <= rounding; }))
+  {
+    return PolygonLight({}, this->Map);
   }
   if (std::all_of(heights.begin(), heights.end(), [](double h) { return h >= 0.0; }))
   {
-    // An edge on in the plane sends nothing along it, and neither does a light that lies in it.
-    const bool inPlane =
-      std::all_of(heights.begin(), heights.end(), [](double h) { return h == 0.0; });
-    return inPlane ? PolygonLight({}, this->Map) : *this;
+    return *this;
   }
   PolygonLight result(ClipPolygon(this->Vertices, heights), SampleMap::TriangleFan);
   result.Radiance = this->Radiance;

@@ -29,8 +29,8 @@ struct Surface
   /// Of each triangle, the receiver region that it belongs to; empty if the surface receives
   /// nothing.
   std::vector<int> Regions;
-  /// How far the coordinates may be off by the rounding of their type.
-  double Rounding = 0.0;
+  /// How far the coordinates may be off by the rounding of their type, along each axis.
+  glm::dvec3 Rounding{ 0.0 };
 };
 
 /// A receiver: one planar region of one surface.

@@ -17,7 +17,9 @@
 #include "vtkShaderProgram.h"
 #include "vtkStageTexture.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 vtkStandardNewMacro(vtkClosedForm);
@@ -56,6 +58,27 @@ void SetPolygonUniforms(vtkShaderProgram* program, const penumbra::ReceiverFrame
   program->SetUniform3f("lightRadiance", &radiance.x);
 }
 
+/// Which of the two arrangements of vtkPolygonFormFactor.glsl keeps more digits where most light
+/// arrives. A light whose extent, as seen from the distance r, is d / r, and that rises to z / r,
+/// gives at most its area's share of that: of it, the first loses the inverse of z / r, and the
+/// second that of d / z.
+bool IsLow(const penumbra::ReceiverFrame& frame, const penumbra::PolygonLight& polygon)
+{
+  const glm::dvec3 x = frame.DirectionToMetric(frame.GetBase().EdgeX);
+  const glm::dvec3 y = frame.DirectionToMetric(frame.GetBase().EdgeY);
+  const glm::dvec3 reach = 0.5 * (glm::abs(x) + glm::abs(y));
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const glm::dvec3& vertex : polygon.GetVertices())
+  {
+    const glm::dvec3 v = frame.ToMetric(vertex);
+    low = glm::min(low, v);
+    high = glm::max(high, v);
+  }
+  const glm::dvec3 gap = glm::max(glm::max(low - reach, -reach - high), glm::dvec3(0.0));
+  const double nearest = std::max(glm::length(gap), high.z);
+  return high.z * high.z < glm::length(high - low) * nearest;
+}
+
 } // namespace
 
 vtkClosedForm::vtkClosedForm() = default;
@@ -68,13 +91,10 @@ bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::Receive
   this->Frame = frame;
   this->Seen = &seen;
   this->Texels = texels;
-  this->Program = nullptr;
-  if (!seen.GetPolygons().empty())
+  this->Programs.fill(nullptr);
+  for (const penumbra::EmittingPolygon& polygon : seen.GetPolygons())
   {
-    std::string source = penumbra::WithReceiverTexels(vtkClosedFormFS);
-    vtkShaderProgram::Substitute(source, "//Penumbra::FormFactor::Dec", vtkPolygonFormFactor);
-    this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
-    if (!this->Program)
+    if (!this->PrepareProgram(IsLow(frame, *polygon.Polygon)))
     {
       vtkErrorMacro("The shader of unoccluded lights did not compile.");
       return false;
@@ -83,9 +103,23 @@ bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::Receive
   return this->Texture->Allocate(window, { texels.x, maximumRows }, 4);
 }
 
+bool vtkClosedForm::PrepareProgram(bool isLow)
+{
+  vtkShaderProgram*& program = this->Programs[isLow ? 1 : 0];
+  if (!program)
+  {
+    std::string source = penumbra::WithReceiverTexels(vtkClosedFormFS);
+    vtkShaderProgram::Substitute(source, "//Penumbra::FormFactor::Dec", vtkPolygonFormFactor);
+    vtkShaderProgram::Substitute(source, "//Penumbra::LightIsLow::Dec",
+      std::string("#define LIGHT_IS_LOW ") + (isLow ? "1" : "0"));
+    program = penumbra::ReadyFullScreenProgram(this->Window, source.c_str());
+  }
+  return program;
+}
+
 void vtkClosedForm::Draw(int firstRow, int lastRow)
 {
-  if (this->Program)
+  if (this->Programs[0] || this->Programs[1])
   {
     this->DrawPolygons(firstRow, lastRow);
   }
@@ -97,11 +131,12 @@ void vtkClosedForm::Draw(int firstRow, int lastRow)
 
 void vtkClosedForm::DrawPolygons(int firstRow, int lastRow)
 {
-  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
-  penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow);
   bool add = false; // the first polygon replaces what is there
   for (const penumbra::EmittingPolygon& polygon : this->Seen->GetPolygons())
   {
+    vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
+      this->Programs[IsLow(this->Frame, *polygon.Polygon) ? 1 : 0]);
+    penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow);
     SetPolygonUniforms(program, this->Frame, polygon);
     this->Texture->BindAsTarget(0, lastRow - firstRow, add);
     penumbra::DrawFullScreenTriangle();
@@ -134,7 +169,7 @@ void vtkClosedForm::Evaluate(int firstRow, int lastRow)
 void vtkClosedForm::ReleaseGraphicsResources()
 {
   this->Texture->ReleaseGraphicsResources();
-  this->Program = nullptr;
+  this->Programs.fill(nullptr);
   this->Seen = nullptr;
 }
 

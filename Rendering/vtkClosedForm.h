@@ -17,6 +17,8 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for vtkWeakPointer
 
+#include <array> // for programs
+
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkStageTexture;
@@ -56,11 +58,14 @@ private:
   vtkClosedForm(const vtkClosedForm&) = delete;
   void operator=(const vtkClosedForm&) = delete;
 
+  bool PrepareProgram(bool isLow);
   void DrawPolygons(int firstRow, int lastRow);
   void Evaluate(int firstRow, int lastRow);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  vtkShaderProgram* Program = nullptr; ///< the window's; none for lights that are not polygons
+  /// The window's, for polygons that are not low (vtkPolygonFormFactor.glsl) and that are; none for
+  /// lights that are not polygons.
+  std::array<vtkShaderProgram*, 2> Programs{};
   penumbra::ReceiverFrame Frame;
   const penumbra::LightShape* Seen = nullptr;
   glm::ivec2 Texels{ 1 };

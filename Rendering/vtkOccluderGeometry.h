@@ -9,6 +9,9 @@
  * it is. Triangles of the receiver itself are left out, as are those wholly below it. For each
  * light only those are taken that reach between it and the receiver (penumbra::BlockingRegion); of
  * triangles that go far beyond, the part that does.
+ *
+ * What lies in the receiver's plane, or in that of a flat light, but for the rounding of
+ * coordinates, blocks nothing: a rug on a floor, a ceiling around a lamp.
  */
 #ifndef vtkOccluderGeometry_h
 #define vtkOccluderGeometry_h
@@ -38,8 +41,8 @@ public:
     const penumbra::ReceiverFrame& frame);
 
   /**
-   * Select the triangles that have a point above GetContactTolerance() and within the region. The
-   * answer is how many there are.
+   * Select the triangles that have a point above the receiver and within the region, and do not lie
+   * in the light. The answer is how many there are.
    */
   std::size_t Select(const penumbra::BlockingRegion& region);
 
@@ -52,12 +55,6 @@ public:
    * How many triangles were selected.
    */
   std::size_t GetNumberOfTriangles() const { return this->Selected.size(); }
-
-  /**
-   * The height, in units of the receiver's size, up to which surfaces count as lying in the
-   * receiver: 1e-6, or four times what the rounding of the coordinates can amount to.
-   */
-  double GetContactTolerance() const { return this->ContactTolerance; }
 
   /**
    * Draw all triangles `instances` times with the current program, whose attribute vertexUVH gets
@@ -82,14 +79,20 @@ private:
   using Triangle = penumbra::Surface::Triangle;
   void AddClipped(const Triangle& triangle, const penumbra::BlockingRegion& region);
 
-  std::vector<glm::dvec3> Points;  ///< of all surfaces, in the frame, then those that clipping made
-  std::size_t ScenePoints = 0;     ///< how many are the surfaces'
-  std::vector<Triangle> Triangles; ///< all that may block any light
+  std::vector<glm::dvec3> Points; ///< of all surfaces, in the frame, then those that clipping made
+  std::size_t ScenePoints = 0;    ///< how many are the surfaces'
+  /// Of each surface: all triangles that may block any light, and how far its points may be off, in
+  /// the world, along each axis.
+  struct Part
+  {
+    std::vector<Triangle> Triangles;
+    glm::dvec3 Uncertainty{ 0.0 };
+  };
+  std::vector<Part> Parts;
   std::vector<Triangle> Selected;
   vtkNew<vtkOpenGLBufferObject> Vertices;
   vtkNew<vtkOpenGLBufferObject> Indices;
   std::size_t IndexCount = 0;
-  double ContactTolerance = 0.0;
 };
 
 #endif

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 vtkStandardNewMacro(vtkRadianceBaker);
 
@@ -25,8 +26,8 @@ namespace
 {
 
 /// The lowest height of a sample, in units of the receiver's size: on the plane itself it would
-/// have no projection, and it sends nothing.
-constexpr double SmallestSampleHeight = 1e-12;
+/// have no projection, and it sends nothing. What is lower is rounding.
+constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
 
 /// The first samples of a light whose error is to be found: fewer say little of it.
 constexpr int FirstBatch = 64;
@@ -245,8 +246,8 @@ bool vtkRadianceBaker::DrawMasks(
     static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
     vtkVisibilityMask::SamplesPerLayer;
   const std::size_t bytesPerRow = static_cast<std::size_t>(size.x) * layers * sizeof(std::uint32_t);
-  const int most =
-    static_cast<int>(std::min(MaximumMaskBytes / bytesPerRow, static_cast<std::size_t>(size.y)));
+  const int most = static_cast<int>(
+    std::min(this->MaximumMaskBytes / bytesPerRow, static_cast<std::size_t>(size.y)));
   const int rows = most == size.y ? most : std::max(most - 2 * halo, 1);
   const int maskRows = std::min(rows + 2 * halo, size.y);
   if (!this->Masks->Allocate(job.Window, size.x, maskRows, count))
@@ -352,4 +353,5 @@ bool vtkRadianceBaker::RefineLight(
 void vtkRadianceBaker::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumMaskBytes: " << this->MaximumMaskBytes << "\n";
 }

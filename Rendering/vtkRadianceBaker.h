@@ -37,8 +37,15 @@ public:
   vtkTypeMacro(vtkRadianceBaker, vtkObject)
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The most bytes that masks take at a time.
-  static constexpr std::size_t MaximumMaskBytes = std::size_t{ 128 } * 1024 * 1024;
+  ///@{
+  /**
+   * The most bytes that masks take at a time, but for one row of texels with its neighbours. It
+   * changes no texel. Default is DefaultMaskBytes.
+   */
+  static constexpr std::size_t DefaultMaskBytes = std::size_t{ 128 } * 1024 * 1024;
+  void SetMaximumMaskBytes(std::size_t bytes) { this->MaximumMaskBytes = bytes; }
+  std::size_t GetMaximumMaskBytes() const { return this->MaximumMaskBytes; }
+  ///@}
 
   /// What was done for one receiver.
   struct Report
@@ -90,6 +97,7 @@ private:
   bool DrawMasks(Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use);
   vtkRadianceResolver::Options GetOptions(const Job& job) const;
 
+  std::size_t MaximumMaskBytes = DefaultMaskBytes;
   vtkNew<vtkOccluderGeometry> Occluders;
   vtkNew<vtkVisibilityMask> Masks;
   vtkNew<vtkRadianceResolver> Resolver;

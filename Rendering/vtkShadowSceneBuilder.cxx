@@ -78,8 +78,7 @@ void TransformPoints(vtkPolyData* data, const glm::dmat4& matrix, penumbra::Surf
   const glm::dmat3 size(glm::abs(glm::dvec3(matrix[0])), glm::abs(glm::dvec3(matrix[1])),
     glm::abs(glm::dvec3(matrix[2])));
   const bool isDouble = points->GetDataType() == VTK_DOUBLE;
-  surface.Rounding =
-    glm::length(size * largest) * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
+  surface.Rounding = size * largest * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
 }
 
 bool IsFinite(const glm::dvec3& p)
@@ -92,7 +91,7 @@ penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Sur
 {
   penumbra::PolygonMesh mesh;
   mesh.Points = surface.Points;
-  mesh.Rounding = surface.Rounding;
+  mesh.Rounding = glm::length(surface.Rounding);
   std::vector<vtkIdType> merged(mesh.Points.size());
   std::iota(merged.begin(), merged.end(), vtkIdType{ 0 });
   if (!merged.empty() && std::all_of(mesh.Points.begin(), mesh.Points.end(), IsFinite))

@@ -50,7 +50,8 @@ int SetProjections(vtkShaderProgram* program,
     std::min<std::size_t>(projections.size() - first, vtkVisibilityMask::SamplesPerLayer);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const glm::vec3 v(projections[first + i].K);
+    const glm::dvec3& exact = projections[first + i].K;
+    const glm::vec3 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
     std::copy_n(&v.x, 3, k.data() + 4 * i);
   }
   program->SetUniform4fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
@@ -112,15 +113,11 @@ void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
     vtkErrorMacro("The shader of the visibility masks did not compile.");
     return;
   }
-  // Row r of the receiver is row r - firstRow of the target, whose height is this->Height.
-  const float window[4] = { 2.0f,
-    2.0f * static_cast<float>(texels.y) / static_cast<float>(this->Height), -1.0f,
-    -2.0f * static_cast<float>(firstRow) / static_cast<float>(this->Height) - 1.0f };
-  program->SetUniform4f("windowTransform", window);
-  program->SetUniformf("contactTolerance", static_cast<float>(occluders->GetContactTolerance()));
 
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
-  state->vtkglViewport(0, 0, this->Width, this->Height);
+  // Row r of the receiver is row r - firstRow of the target. The viewport is the whole receiver's,
+  // so that nothing is rounded otherwise for one band of rows than for another.
+  state->vtkglViewport(0, -firstRow, texels.x, texels.y);
   for (unsigned int capability : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
   {
     state->vtkglDisable(capability);

@@ -8,20 +8,20 @@
 
 in vec3 vertexUVH;
 
-uniform vec4 registration[32];  // xyz: k of each sample
-uniform vec4 windowTransform;   // (x', y') to clip coordinates: xy scales, zw times w' is added
-uniform float contactTolerance; // what is lower lies in the receiver
+uniform vec4 registration[32]; // xy: k.x and k.y of each sample; z: its height, 0 for a direction
 
 flat out uint sampleBit;
 out float gl_ClipDistance[2];
 
 void main()
 {
-  vec3 k = registration[gl_InstanceID].xyz;
-  float w = 1.0 - k.z * vertexUVH.z;
-  vec2 p = vertexUVH.xy - k.xy * vertexUVH.z;
-  gl_Position = vec4(p * windowTransform.xy + w * windowTransform.zw, 0.0, w);
-  gl_ClipDistance[0] = vertexUVH.z - contactTolerance;
+  // w' = 1 - k.z h as a difference of heights, which is exact, with its sign, for what is about as high
+  // as the sample.
+  vec3 to = registration[gl_InstanceID].xyz;
+  float w = to.z > 0.0 ? (to.z - vertexUVH.z) / to.z : 1.0;
+  vec2 p = vertexUVH.xy - to.xy * vertexUVH.z;
+  gl_Position = vec4(2.0 * p - w, 0.0, w); // [0, 1] w' is [-w, w]
+  gl_ClipDistance[0] = vertexUVH.z;
   gl_ClipDistance[1] = w;
   sampleBit = 1u << uint(gl_InstanceID);
 }
