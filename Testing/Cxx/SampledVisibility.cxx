@@ -67,10 +67,11 @@ SampledVisibility::SampledVisibility(const TexelGrid& texels,
 
 Vec3 SampledVisibility::ToFrame(const Vec3& d) const
 {
-  const Vec3 n = this->Texels.GetNormal();
+  const Vec3 n = Cross(this->Texels.EdgeX, this->Texels.EdgeY);
   const long double square = Dot(n, n);
   return { Dot(Cross(d, this->Texels.EdgeY), n) / square,
-    Dot(Cross(this->Texels.EdgeX, d), n) / square, Dot(d, n) / std::pow(square, 0.75L) };
+    Dot(Cross(this->Texels.EdgeX, d), n) / square,
+    Dot(d, this->Texels.GetNormal()) / std::pow(square, 0.75L) };
 }
 
 void SampledVisibility::AddImage(

@@ -23,13 +23,15 @@
 namespace oracle
 {
 
-/** The texels of a parallelogram; its lit side is where EdgeX x EdgeY points. */
+/** The texels of a parallelogram, lit from where EdgeX x EdgeY points, or from the other side. */
 struct TexelGrid
 {
   Vec3 Corner, EdgeX, EdgeY;
   int CountX, CountY;
+  bool IsBack = false;
 
-  Vec3 GetNormal() const { return Cross(this->EdgeX, this->EdgeY); }
+  /** Towards the lit side. */
+  Vec3 GetNormal() const { return (this->IsBack ? -1.0L : 1.0L) * Cross(this->EdgeX, this->EdgeY); }
   /** The centre of texel (i, j). */
   Vec3 GetCentre(int i, int j) const;
 };
