@@ -102,11 +102,12 @@ void SampledVisibility::AddImage(
     {
       // u and k h are rounded; k h has three roundings (of k, of h, of the product), and so has w'.
       // What w' is off by counts as far as the image is from the origin: where texels are, that is
-      // at most 1. What is beyond Reach is clipped before it is rounded.
+      // at most 1. What is beyond reach is clipped before it is rounded.
+      const long double reach = axis == 0 ? this->Tolerance.ReachX : this->Tolerance.ReachY;
       const long double numerator = at[axis] - shift[axis];
       const long double error = this->Tolerance.Rounding *
-        (this->Tolerance.Reach + 3 * std::min(std::abs(shift[axis]), this->Tolerance.Reach) +
-          std::min(std::abs(numerator), this->Tolerance.Reach) + 3 * kz * p.Z);
+        (reach + 3 * std::min(std::abs(shift[axis]), reach) + std::min(std::abs(numerator), reach) +
+          3 * kz * p.Z);
       place[axis] = numerator / w * counts[axis];
       slack = std::max(slack, error / w * counts[axis]);
     }

@@ -43,8 +43,8 @@ struct RayTolerance
   long double Texels;
   /** The relative rounding of the numbers that go into a projection. */
   long double Rounding;
-  /** Coordinates, in units of the receiver, are rounded as numbers of this size. */
-  long double Reach;
+  /** Coordinates, in units of the receiver's edges, are rounded as numbers of this size. */
+  long double ReachX, ReachY;
 };
 
 /** The share of the samples' weight that is seen: between these, by open rays. */

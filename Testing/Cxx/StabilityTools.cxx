@@ -31,17 +31,17 @@ struct CountedLight
 /// OpenGL has at least 4 bits below a texel, Mesa's software renderer 8. Vertices, and those that
 /// clipping makes, are snapped to them by up to half a step in x and y: the edges between them move
 /// by less than two steps. Occluders that reach further than 64 receivers are clipped in double to
-/// what lies between receiver and light: the light's distance in units of the receiver's height.
+/// what lies between receiver and light: the light's distance in units of the receiver's edges.
 oracle::RayTolerance GetTolerance(const penumbra::Parallelogram& base, const penumbra::Light& light)
 {
   const double area = glm::length(glm::cross(base.EdgeX, base.EdgeY));
-  const double height = area / std::max(glm::length(base.EdgeX), glm::length(base.EdgeY));
-  double reach = 64.0;
+  double distance = 0.0;
   for (const glm::dvec3& p : light->GetHull().Points)
   {
-    reach = std::max(reach, glm::length(p - base.Corner) / height);
+    distance = std::max(distance, glm::length(p - base.Corner));
   }
-  return { 2.0L / 256, 0x1p-24L, reach };
+  return { 2.0L / 256, 0x1p-24L, std::max(64.0, distance * glm::length(base.EdgeY) / area),
+    std::max(64.0, distance * glm::length(base.EdgeX) / area) };
 }
 
 CountedLight CountLight(
