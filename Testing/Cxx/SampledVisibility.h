@@ -67,7 +67,7 @@ private:
   /** A corner of a triangle's image: in texels, and how far edges that end there may be off. */
   struct Corner
   {
-    long double X, Y, Slack;
+    long double X, Y, SlackX, SlackY;
   };
   /** What of a triangle lies between the receiver and a sample, projected on the receiver. */
   struct Image
