@@ -67,10 +67,11 @@ SampledVisibility::SampledVisibility(const TexelGrid& texels,
 
 Vec3 SampledVisibility::ToFrame(const Vec3& d) const
 {
-  const Vec3 n = this->Texels.GetNormal();
+  const Vec3 n = Cross(this->Texels.EdgeX, this->Texels.EdgeY);
   const long double square = Dot(n, n);
   return { Dot(Cross(d, this->Texels.EdgeY), n) / square,
-    Dot(Cross(this->Texels.EdgeX, d), n) / square, Dot(d, n) / std::pow(square, 0.75L) };
+    Dot(Cross(this->Texels.EdgeX, d), n) / square,
+    Dot(d, this->Texels.GetNormal()) / std::pow(square, 0.75L) };
 }
 
 void SampledVisibility::AddImage(
@@ -95,26 +96,25 @@ void SampledVisibility::AddImage(
     const std::array<long double, 2> shift = { sample.X / sample.Z * p.Z,
       sample.Y / sample.Z * p.Z };
     const std::array<int, 2> counts = { this->Texels.CountX, this->Texels.CountY };
-    std::array<long double, 2> place;
-    long double slack = 0;
+    std::array<long double, 2> place, slack;
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       // u and k h are rounded; k h has three roundings (of k, of h, of the product), and so has w'.
       // What w' is off by counts as far as the image is from the origin: where texels are, that is
-      // at most 1. What is beyond Reach is clipped before it is rounded.
+      // at most 1. What is beyond reach is clipped before it is rounded.
+      const long double reach = axis == 0 ? this->Tolerance.ReachX : this->Tolerance.ReachY;
       const long double numerator = at[axis] - shift[axis];
       const long double error = this->Tolerance.Rounding *
-        (this->Tolerance.Reach + 3 * std::min(std::abs(shift[axis]), this->Tolerance.Reach) +
-          std::min(std::abs(numerator), this->Tolerance.Reach) + 3 * kz * p.Z);
+        (reach + 3 * std::min(std::abs(shift[axis]), reach) + std::min(std::abs(numerator), reach) +
+          3 * kz * p.Z);
       place[axis] = numerator / w * counts[axis];
-      slack = std::max(slack, error / w * counts[axis]);
+      slack[axis] = error / w * counts[axis] + this->Tolerance.Texels;
     }
-    slack += this->Tolerance.Texels;
-    image.Corners.push_back({ place[0], place[1], slack });
-    image.LowX = std::min(image.LowX, place[0] - slack);
-    image.HighX = std::max(image.HighX, place[0] + slack);
-    image.LowY = std::min(image.LowY, place[1] - slack);
-    image.HighY = std::max(image.HighY, place[1] + slack);
+    image.Corners.push_back({ place[0], place[1], slack[0], slack[1] });
+    image.LowX = std::min(image.LowX, place[0] - slack[0]);
+    image.HighX = std::max(image.HighX, place[0] + slack[0]);
+    image.LowY = std::min(image.LowY, place[1] - slack[1]);
+    image.HighY = std::max(image.HighY, place[1] + slack[1]);
   }
   if (image.HighX >= 0 && image.LowX <= this->Texels.CountX && image.HighY >= 0 &&
     image.LowY <= this->Texels.CountY)
@@ -152,9 +152,16 @@ SeenShare SampledVisibility::GetShare(
       const long double dx = b.X - a.X, dy = b.Y - a.Y, square = dx * dx + dy * dy;
       const long double along =
         square > 0 ? std::clamp(((x - a.X) * dx + (y - a.Y) * dy) / square, 0.0L, 1.0L) : 0.0L;
-      const long double away = std::hypot(a.X + along * dx - x, a.Y + along * dy - y);
-      // 1 / w' is affine on the receiver, and so is the slack that it brings.
-      if (away <= a.Slack + along * (b.Slack - a.Slack))
+      // 1 / w' is affine on the receiver, and so is the slack that it brings. Across the edge,
+      // slack along it does not count.
+      const long double slackX = a.SlackX + along * (b.SlackX - a.SlackX);
+      const long double slackY = a.SlackY + along * (b.SlackY - a.SlackY);
+      const long double awayX = std::abs(a.X + along * dx - x);
+      const long double awayY = std::abs(a.Y + along * dy - y);
+      const bool isBeside = along > 0 && along < 1;
+      if (isBeside ? std::hypot(awayX, awayY) * std::sqrt(square) <=
+            std::abs(dy) * slackX + std::abs(dx) * slackY
+                   : awayX <= slackX && awayY <= slackY)
       {
         return true;
       }

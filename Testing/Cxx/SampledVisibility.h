@@ -23,13 +23,15 @@
 namespace oracle
 {
 
-/** The texels of a parallelogram; its lit side is where EdgeX x EdgeY points. */
+/** The texels of a parallelogram, lit from where EdgeX x EdgeY points, or from the other side. */
 struct TexelGrid
 {
   Vec3 Corner, EdgeX, EdgeY;
   int CountX, CountY;
+  bool IsBack = false;
 
-  Vec3 GetNormal() const { return Cross(this->EdgeX, this->EdgeY); }
+  /** Towards the lit side. */
+  Vec3 GetNormal() const { return (this->IsBack ? -1.0L : 1.0L) * Cross(this->EdgeX, this->EdgeY); }
   /** The centre of texel (i, j). */
   Vec3 GetCentre(int i, int j) const;
 };
@@ -41,8 +43,8 @@ struct RayTolerance
   long double Texels;
   /** The relative rounding of the numbers that go into a projection. */
   long double Rounding;
-  /** Coordinates, in units of the receiver, are rounded as numbers of this size. */
-  long double Reach;
+  /** Coordinates, in units of the receiver's edges, are rounded as numbers of this size. */
+  long double ReachX, ReachY;
 };
 
 /** The share of the samples' weight that is seen: between these, by open rays. */
@@ -65,7 +67,7 @@ private:
   /** A corner of a triangle's image: in texels, and how far edges that end there may be off. */
   struct Corner
   {
-    long double X, Y, Slack;
+    long double X, Y, SlackX, SlackY;
   };
   /** What of a triangle lies between the receiver and a sample, projected on the receiver. */
   struct Image

@@ -30,13 +30,25 @@ struct CountedLight
 
 /// OpenGL has at least 4 bits below a texel, Mesa's software renderer 8. Vertices, and those that
 /// clipping makes, are snapped to them by up to half a step in x and y: the edges between them move
-/// by less than two steps. Occluders that reach further than 64 receivers are clipped in double.
-const oracle::RayTolerance FloatRays{ 2.0L / 256, 0x1p-24L, 64 };
+/// by less than two steps. Occluders that reach further than 64 receivers are clipped in double to
+/// what lies between receiver and light: the light's distance in units of the receiver's edges.
+oracle::RayTolerance GetTolerance(const penumbra::Parallelogram& base, const penumbra::Light& light)
+{
+  const double area = glm::length(glm::cross(base.EdgeX, base.EdgeY));
+  double distance = 0.0;
+  for (const glm::dvec3& p : light->GetHull().Points)
+  {
+    distance = std::max(distance, glm::length(p - base.Corner));
+  }
+  return { 2.0L / 256, 0x1p-24L, std::max(64.0, distance * glm::length(base.EdgeY) / area),
+    std::max(64.0, distance * glm::length(base.EdgeX) / area) };
+}
 
 CountedLight CountLight(
   const TestScene& scene, const oracle::TexelGrid& grid, const penumbra::Light& light)
 {
-  const glm::dvec3 normal = glm::normalize(glm::cross(scene.Base.EdgeX, scene.Base.EdgeY));
+  const double side = grid.IsBack ? -1.0 : 1.0;
+  const glm::dvec3 normal = side * glm::normalize(glm::cross(scene.Base.EdgeX, scene.Base.EdgeY));
   const penumbra::Light seen(light->Clip(scene.Base.Corner, normal));
   std::vector<oracle::Vec3> samples;
   const penumbra::ReceiverSettings& s = scene.Settings;
@@ -57,8 +69,8 @@ CountedLight CountLight(
   }
   exact.TwoSided = light->TwoSided;
   exact.Radiance = { light->Radiance.x, light->Radiance.y, light->Radiance.z };
-  return { exact, { grid, scene.Occluders, samples, false, FloatRays }, ToOracle(normal),
-    ToOracle(light->GetAxis()) };
+  return { exact, { grid, scene.Occluders, samples, false, GetTolerance(scene.Base, light) },
+    ToOracle(normal), ToOracle(light->GetAxis()) };
 }
 
 } // namespace
@@ -88,9 +100,19 @@ std::vector<glm::vec4> BakeInBands(const TestScene& scene, std::size_t maskBytes
 CountError CompareWithCount(TestScene scene)
 {
   scene.Settings.Side = penumbra::ReceiverSide::Front;
-  const std::vector<glm::vec4> texels = BakeTexels(scene);
+  return CompareWithCount(scene, scene.MakeScene());
+}
+
+CountError CompareWithCount(const TestScene& scene, penumbra::ShadowScene made)
+{
+  penumbra::Receiver& receiver = made.Receivers.front();
+  receiver.Texels = scene.Texels;
+  receiver.Settings = scene.Settings;
+  receiver.Settings.Reconstruction = false;
+  const std::vector<glm::vec4> texels = BakeReceiver(made).Texels.Irradiance;
   const oracle::TexelGrid grid{ ToOracle(scene.Base.Corner), ToOracle(scene.Base.EdgeX),
-    ToOracle(scene.Base.EdgeY), scene.Texels.x, scene.Texels.y };
+    ToOracle(scene.Base.EdgeY), scene.Texels.x, scene.Texels.y,
+    scene.Settings.Side == penumbra::ReceiverSide::Back };
   std::vector<CountedLight> lights;
   for (const penumbra::Light& light : scene.Lights)
   {

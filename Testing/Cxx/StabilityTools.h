@@ -38,6 +38,9 @@ struct CountError
  * exact form factor times the exact count of the same samples (SampledVisibility).
  */
 CountError CompareWithCount(TestScene scene);
+/// The same for the first receiver of a scene that was made otherwise: `scene` says where its
+/// texels are, and what is around them.
+CountError CompareWithCount(const TestScene& scene, penumbra::ShadowScene made);
 
 /// Prints an error beside its bound, and expects it to be no larger.
 void ExpectWithin(const std::string& what, double error, double bound);

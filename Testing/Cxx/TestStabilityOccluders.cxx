@@ -4,6 +4,7 @@
 // Occluders in hard places: on the receiver, in it, below it; at the light, around it, behind it.
 
 #include "StabilityTools.h"
+#include "SurfaceLight.h"
 
 #include <gtest/gtest.h>
 
@@ -128,6 +129,28 @@ TEST(StabilityOccluderAtLight, CoplanarBlocksNothing)
     name << "ceiling in the light's plane at " << h;
     ExpectWithin(name.str(), GetDifference(unblocked, BakeTexels(scene)), 0.0);
   }
+}
+
+// A light that is not flat has no plane of its own: its upper half lies in the ceiling.
+TEST(StabilityOccluderAtLight, CoplanarWithPartOfALightBlocksNothing)
+{
+  double largest = 0.0;
+  for (int i = 0; i < 40; ++i)
+  {
+    const double h = 1.0 + 0.0503 * i;
+    const auto square = [](double x, double z)
+    {
+      return penumbra::PolygonLight::Parallelogram(
+        { x, 0.5, z }, { x + 0.5, 0.5, z }, { x, -0.5, z });
+    };
+    TestScene scene = MakeLampScene();
+    scene.Lights.clear();
+    scene.Lights.emplace_back(penumbra::SurfaceLight({ square(-0.5, 0.7 * h), square(0.0, h) }));
+    const Texels unblocked = BakeTexels(scene);
+    scene.AddPlate({ -3.0, -3.0, h }, { 6.0, 0.0, 0.0 }, { 0.0, 6.0, 0.0 });
+    largest = std::max(largest, GetDifference(unblocked, BakeTexels(scene)));
+  }
+  ExpectWithin("ceiling in the plane of half a light", largest, 0.0);
 }
 
 TEST(StabilityOccluderAtLight, CoplanarAndTiltedBlocksNothing)

@@ -306,6 +306,33 @@ TEST(StabilityAccumulation, TwoHundredLights)
   ExpectWithin(scene.Name, error.Largest, GetRadianceBound(16) + 200.0 * FloatRounding);
 }
 
+// A light that is refined in batches takes the mean of their ratios, each over its own samples'
+// weights, which is another estimate than the ratio over all samples. They differ by the mean over
+// batches of how far the ratio is from the mean one, times how far the mean weight is from the
+// light's. Both are below twice the discrepancy times the variation: batches have at least N = 64
+// samples of a (0,2) sequence, whose discrepancy is at most (log2(N) / 2 + 3/2) / N; what is seen
+// varies by 1, and weights by less than 1 of their mean.
+TEST(StabilityAccumulation, BatchesOfSamplesAgreeAsEstimates)
+{
+  TestScene scene = MakeLampScene();
+  scene.AddBox({ 0.3, -0.4, 0.3 }, { 0.8, 0.5, 0.7 });
+  scene.Settings.LightSamples = 1024;
+  const Texels once = BakeTexels(scene);
+  scene.Settings.ErrorTolerance = 1e-9;
+  scene.Settings.MaximumLightSamples = 1024;
+  const Texels inBatches = BakeTexels(scene);
+  double largest = 0.0, peak = 0.0, decided = 0.0;
+  for (std::size_t i = 0; i < once.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(static_cast<double>(once[i].r - inBatches[i].r)));
+    peak = std::max(peak, static_cast<double>(once[i].r));
+    const bool isPartial = once[i].r > 0.0f && once[i].a > 0.0f;
+    decided += !isPartial && once[i] != inBatches[i] ? 1.0 : 0.0;
+  }
+  ExpectWithin("batches of samples", largest / peak, std::pow(2.0 * 4.5 / 64.0, 2.0));
+  ExpectWithin("texels wholly lit or dark that batches change", decided, 0.0);
+}
+
 // Bands of rows, each with masks of its own, against all at once.
 TEST(StabilityAccumulation, BandsOfRowsChangeNoBit)
 {
