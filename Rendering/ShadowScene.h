@@ -60,8 +60,9 @@ struct PENUMBRARENDERING_EXPORT ShadowScene
   /// The largest texture side and the most bytes that a surface's textures may take.
   static constexpr int MaximumTextureSide = 16384;
   static constexpr double MaximumTextureBytes = 256.0 * 1024 * 1024;
-  /// Bytes of a texel: 16 of irradiance with, once it is baked, a third more for its mip levels;
-  /// while it is being baked, 4 of variance instead.
+  /// Bytes of a texel: 16 of irradiance and, once it is shown, either 4 of vtkShadowFactors with a
+  /// third more for its mip levels, or the mip levels of the irradiance itself, as many; while it
+  /// is being baked, 4 of variance instead.
   static constexpr int BytesPerTexel = 22;
 
   /**

@@ -124,8 +124,6 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
     {
       reports.push_back(this->BakeReceiver(scene, receivers[i], window, texture, i));
     }
-    this->Masks->ReleaseGraphicsResources(); // before the mip levels take their place
-    texture->GenerateMipmaps();
   }
   this->Resolver->ReleaseGraphicsResources();
   this->Masks->ReleaseGraphicsResources();

@@ -61,7 +61,7 @@ public:
     std::string StoppedBy;
     /// Of each light: the triangles that could block it.
     std::vector<std::size_t> Triangles;
-    /// Bytes of masks and textures at their peak: while masks are there, mip levels are not.
+    /// Bytes of masks and textures at their peak, before any is made to be shown.
     std::size_t PeakBytes = 0;
     /// Seconds until OpenGL had finished.
     double Seconds = 0.0;

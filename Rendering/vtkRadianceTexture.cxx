@@ -27,6 +27,16 @@ constexpr int GutterTexels = 8;
 constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
 
+vtkSmartPointer<vtkTextureObject> MakeTexture()
+{
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  return texture;
+}
+
 /// True if the allocation went through.
 bool AllocateFloats(
   vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const glm::ivec2& size, int components)
@@ -44,14 +54,9 @@ bool AllocateFloats(
 } // namespace
 
 vtkRadianceTexture::vtkRadianceTexture()
+  : Irradiance(MakeTexture())
+  , Variance(MakeTexture())
 {
-  for (vtkTextureObject* texture : { this->Irradiance.Get(), this->Variance.Get() })
-  {
-    texture->SetWrapS(vtkTextureObject::ClampToEdge);
-    texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  }
 }
 
 vtkRadianceTexture::~vtkRadianceTexture() = default;
@@ -186,16 +191,46 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& regi
 
 void vtkRadianceTexture::GenerateMipmaps()
 {
+  if (!this->HasMipmaps)
+  {
+    this->GenerateMipmaps(this->Irradiance);
+    this->HasMipmaps = true;
+  }
+}
+
+void vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture) const
+{
   // On software OpenGL, blending two levels and anisotropy would double a frame's time.
-  this->Irradiance->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
-  this->Irradiance->SetMaximumAnisotropicFiltering(1.0f);
-  this->Irradiance->SetMagnificationFilter(vtkTextureObject::Linear);
-  this->Irradiance->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
-  this->Irradiance->Activate();
-  this->Irradiance->SendParameters();
+  texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
+  texture->SetMaximumAnisotropicFiltering(1.0f);
+  texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  texture->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
+  texture->Activate();
+  texture->SendParameters();
   glGenerateMipmap(GL_TEXTURE_2D);
-  this->Irradiance->Deactivate();
-  this->HasMipmaps = true;
+  texture->Deactivate();
+}
+
+void vtkRadianceTexture::ReleaseMipmaps()
+{
+  // OpenGL frees no single levels. Without room for a copy, they stay.
+  vtkSmartPointer<vtkTextureObject> copy = MakeTexture();
+  if (!this->HasMipmaps || !AllocateFloats(copy, this->Window, this->Size, 4))
+  {
+    copy->ReleaseGraphicsResources(this->Window);
+    return;
+  }
+  this->Framebuffer->SetContext(this->Window);
+  this->Framebuffer->Bind(GL_FRAMEBUFFER);
+  this->Framebuffer->AddColorAttachment(0, this->Irradiance);
+  this->Framebuffer->ActivateReadBuffer(0);
+  copy->Activate();
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, this->Size.x, this->Size.y);
+  copy->Deactivate();
+  this->Framebuffer->RemoveColorAttachment(0);
+  this->Irradiance->ReleaseGraphicsResources(this->Window);
+  this->Irradiance = copy;
+  this->HasMipmaps = false;
 }
 
 void vtkRadianceTexture::ReleaseVariance()
@@ -233,24 +268,42 @@ vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
   return texels;
 }
 
-std::size_t vtkRadianceTexture::GetBytes() const
+vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 {
-  const auto texels =
-    static_cast<std::size_t>(this->Size.x) * static_cast<std::size_t>(this->Size.y);
-  std::size_t bytes = this->HasVariance ? texels * sizeof(float) : 0;
-  const int levels = !this->HasMipmaps ? 0 : this->Gutter > 0 ? MipLevels : AllMipLevels;
-  glm::ivec2 size = this->Size;
-  for (int level = 0; level <= levels && texels > 0; ++level)
+  return this->Irradiance;
+}
+
+vtkRadianceTexture::Region vtkRadianceTexture::GetPaddedRegion(std::size_t region) const
+{
+  const Region& inner = this->Regions[region];
+  return { inner.Origin - this->Gutter, inner.Size + 2 * this->Gutter };
+}
+
+std::size_t vtkRadianceTexture::CountTexels(bool withMipmaps) const
+{
+  if (this->Size == glm::ivec2(0))
   {
-    bytes +=
-      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * sizeof(glm::vec4);
+    return 0;
+  }
+  std::size_t texels = 0;
+  const int levels = !withMipmaps ? 0 : this->Gutter > 0 ? MipLevels : AllMipLevels;
+  glm::ivec2 size = this->Size;
+  for (int level = 0; level <= levels; ++level)
+  {
+    texels += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     if (size == glm::ivec2(1))
     {
       break;
     }
     size = glm::max(size / 2, glm::ivec2(1));
   }
-  return bytes;
+  return texels;
+}
+
+std::size_t vtkRadianceTexture::GetBytes() const
+{
+  return this->CountTexels(this->HasMipmaps) * sizeof(glm::vec4) +
+    (this->HasVariance ? this->CountTexels(false) * sizeof(float) : 0);
 }
 
 void vtkRadianceTexture::ReleaseGraphicsResources()
@@ -261,6 +314,7 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
     this->Variance->ReleaseGraphicsResources(this->Window);
     this->Framebuffer->ReleaseGraphicsResources(this->Window);
   }
+  this->Irradiance = MakeTexture(); // its filter may be that of mip levels
   this->Regions.clear();
   this->Size = glm::ivec2(0);
   this->HasVariance = false;

@@ -18,7 +18,8 @@
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "vtkNew.h"                  // for vtkNew
 #include "vtkObject.h"
-#include "vtkWeakPointer.h" // for vtkWeakPointer
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+#include "vtkWeakPointer.h"  // for vtkWeakPointer
 
 #include "Vectors.h"
 #include <vector> // for texels
@@ -60,6 +61,11 @@ public:
   const std::vector<Region>& GetRegions() const { return this->Regions; }
 
   /**
+   * A region with the gutter around it.
+   */
+  Region GetPaddedRegion(std::size_t region) const;
+
+  /**
    * Width and height of the whole texture.
    */
   const glm::ivec2& GetSize() const { return this->Size; }
@@ -83,9 +89,24 @@ public:
   void Downsample(vtkRadianceTexture* fine, const Region& region, int factor);
 
   /**
-   * Make the mip levels, after the last region is filled.
+   * Make the mip levels of the irradiance, after the last region is filled, to show it.
    */
   void GenerateMipmaps();
+
+  /**
+   * Free them.
+   */
+  void ReleaseMipmaps();
+
+  /**
+   * Make the mip levels of a texture with this one's layout, and set its filter.
+   */
+  void GenerateMipmaps(vtkTextureObject* texture) const;
+
+  /**
+   * The texels of a texture with this layout, with or without mip levels.
+   */
+  std::size_t CountTexels(bool withMipmaps) const;
 
   /**
    * Free the variance, which is not needed to show the texture.
@@ -98,9 +119,9 @@ public:
   Texels Download(const Region& region);
 
   /**
-   * The texture of irradiance, to be shown: GL_RGBA32F.
+   * The texture of irradiance: GL_RGBA32F.
    */
-  vtkTextureObject* GetIrradiance() { return this->Irradiance; }
+  vtkTextureObject* GetIrradiance();
 
   /**
    * The bytes that the textures take, mip levels among them.
@@ -123,8 +144,8 @@ private:
   bool PlaceRegions(const std::vector<glm::ivec2>& sizes, int largestSide);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  vtkNew<vtkTextureObject> Irradiance;
-  vtkNew<vtkTextureObject> Variance;
+  vtkSmartPointer<vtkTextureObject> Irradiance;
+  vtkSmartPointer<vtkTextureObject> Variance;
   vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
   std::vector<Region> Regions;
   glm::ivec2 Size{ 0 };

@@ -23,6 +23,7 @@
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
+#include "vtkShadowFactors.h"
 #include "vtkShadowSceneCollector.h"
 #include "vtkSoftShadowFS.h"
 #include "vtkTextureObject.h"
@@ -49,9 +50,66 @@ struct ShownProp
   vtkWeakPointer<vtkProp> Prop;
   std::vector<std::size_t> Receivers; ///< indices into the scene's
   vtkSmartPointer<vtkRadianceTexture> Texture;
+  vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
+  bool HasShownTexture = false; ///< the one of the shading
   bool IsMatte = false;
+
+  std::size_t GetBytes() const
+  {
+    return this->Texture->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
+  }
 };
+
+/// The largest factor that the diffuse shade of receivers may have.
+double GetLargestFactor(
+  const penumbra::ShadowScene& scene, const std::vector<glm::dvec3>& ambientRadiances)
+{
+  double largest = 1.0;
+  for (const glm::dvec3& ambient : ambientRadiances)
+  {
+    largest = std::max(largest, vtkShadowFactors::GetLargestFactor(ambient));
+  }
+  for (const penumbra::Light& light : scene.Lights)
+  {
+    // Cells may be of any hue.
+    largest = std::max(largest,
+      light->GetEmission() == penumbra::Emission::Cells
+        ? vtkShadowFactors::LargestFactor
+        : vtkShadowFactors::GetLargestFactor(light->Radiance));
+  }
+  return largest;
+}
+
+/// Makes what the prop's shading shows, and frees what it does not.
+void MakeShownTexture(
+  ShownProp& shown, const penumbra::ShadowScene& scene, vtkOpenGLRenderWindow* window)
+{
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  if (shown.Shading == vtkSoftShadowPass::RADIANCE)
+  {
+    if (shown.Factors)
+    {
+      shown.Factors->ReleaseGraphicsResources();
+    }
+    shown.Texture->GenerateMipmaps();
+    shown.HasShownTexture = true;
+  }
+  else
+  {
+    std::vector<glm::dvec3> ambient;
+    for (const std::size_t receiver : shown.Receivers)
+    {
+      ambient.push_back(scene.Receivers[receiver].Settings.AmbientRadiance);
+    }
+    shown.Texture->ReleaseMipmaps();
+    shown.Factors = vtkSmartPointer<vtkShadowFactors>::New();
+    shown.HasShownTexture =
+      shown.Factors->Make(window, shown.Texture, ambient, GetLargestFactor(scene, ambient));
+  }
+  state->Pop();
+}
 
 /// True if an actor's material has no specular part.
 bool IsMatte(vtkProp* prop)
@@ -187,6 +245,7 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
     return;
   }
   this->UpdateScene(renderer, window);
+  this->ChooseShading();
 
   vtkTextureUnitManager* units = window->GetState()->GetTextureUnitManager();
   this->Impl->Renderer = renderer;
@@ -263,21 +322,38 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   }
 }
 
-std::vector<vtkProp*> vtkSoftShadowPass::MarkReceivers()
+void vtkSoftShadowPass::ChooseShading()
 {
-  std::vector<vtkProp*> props;
-  for (std::size_t i = 0; i < this->Impl->Shown.size(); ++i)
+  for (ShownProp& shown : this->Impl->Shown)
   {
-    ShownProp& shown = this->Impl->Shown[i];
     vtkInformation* keys = shown.Prop->GetPropertyKeys();
     const int shading = keys && keys->Has(DESIGNATED()) ? keys->Get(DESIGNATED()) : this->Shading;
     const bool isMatte = IsMatte(shown.Prop);
-    if (shading != shown.Shading || isMatte != shown.IsMatte)
+    const bool isOther = shading != shown.Shading;
+    if (isOther || isMatte != shown.IsMatte)
     {
       shown.Shading = shading;
       shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
+    if (isOther || !shown.HasShownTexture)
+    {
+      MakeShownTexture(shown, this->Impl->Collector->GetScene(), this->Impl->Window);
+    }
+  }
+}
+
+std::vector<vtkProp*> vtkSoftShadowPass::MarkReceivers()
+{
+  std::vector<vtkProp*> props;
+  for (std::size_t i = 0; i < this->Impl->Shown.size(); ++i)
+  {
+    const ShownProp& shown = this->Impl->Shown[i];
+    if (!shown.HasShownTexture)
+    {
+      continue; // drawn plain
+    }
+    vtkInformation* keys = shown.Prop->GetPropertyKeys();
     if (!keys)
     {
       vtkNew<vtkInformation> newKeys;
@@ -346,7 +422,9 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   const ShownProp& shown = this->Impl->Shown[index];
   vtkOpenGLState* state = this->Impl->Window->GetState();
   state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
-  glBindTexture(GL_TEXTURE_2D, shown.Texture->GetIrradiance()->GetHandle());
+  vtkTextureObject* texture =
+    shown.Shading == RADIANCE ? shown.Texture->GetIrradiance() : shown.Factors->GetTexture();
+  glBindTexture(GL_TEXTURE_2D, texture->GetHandle());
   program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
 
   // The matrices that the mappers use; vtkOpenGLCamera gives them transposed, as OpenGL reads them.
@@ -370,6 +448,10 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
       : penumbra::MakeScreenMap(receiver.Base, toView, toClip, viewport);
     uniforms.Add(
       map, receiver.Settings, shown.Texture->GetRegions()[i], glm::vec2(shown.Texture->GetSize()));
+  }
+  if (shown.Factors)
+  {
+    program->SetUniformf("penumbraScale", shown.Factors->GetScale());
   }
   uniforms.Set(program, fromView ? "penumbraViewMaps" : "penumbraScreenMaps");
   return true;
@@ -414,7 +496,7 @@ vtkTypeInt64 vtkSoftShadowPass::GetTextureBytes() const
   std::size_t bytes = 0;
   for (const ShownProp& shown : this->Impl->Shown)
   {
-    bytes += shown.Texture->GetBytes();
+    bytes += shown.GetBytes();
   }
   return static_cast<vtkTypeInt64>(bytes);
 }

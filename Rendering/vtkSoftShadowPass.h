@@ -154,6 +154,7 @@ private:
   static vtkInformationIntegerKey* RECEIVER_INDEX();
   void UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void BakeReceivers(vtkOpenGLRenderWindow* window);
+  void ChooseShading();
   std::vector<vtkProp*> MarkReceivers();
 
   vtkSmartPointer<vtkRenderPass> DelegatePass;

@@ -8,7 +8,8 @@
 // PENUMBRA_VARYING if the vertex shader itself can hand on (u, v), which is cheapest. Otherwise the position is
 // gl_FragCoord, from which the map is projective: it depends on no other shader.
 
-uniform sampler2D penumbraTexture;
+uniform sampler2D penumbraTexture; // for shadows, vtkShadowFactors; for radiance, the irradiance over pi
+uniform float penumbraScale;       // of the factors
 #ifdef PENUMBRA_VIEW
 #define PENUMBRA_MAPS penumbraViewMaps
 #else
@@ -31,16 +32,16 @@ vec4 penumbraTransform(mat4 map, vec4 position)
 #endif
 }
 
-// The irradiance over pi at the fragment, and in a what is blocked of it, in the mean; its receiver's settings.
-vec4 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
+// The texel at the fragment, and its receiver's settings: what is not used costs nothing.
+vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
 {
   ambient = penumbraAmbient[0];
   reflectance = penumbraReflectance[0];
 #if defined(PENUMBRA_VARYING)
-  return texture(penumbraTexture, penumbraUVVSOutput); // one receiver fills its texture, which clamps to its edge
+  return texture(penumbraTexture, penumbraUVVSOutput).rgb; // one receiver fills its texture, which clamps to its edge
 #elif PENUMBRA_RECEIVERS == 1
   vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[0], position);
-  return texture(penumbraTexture, uvhq.xy / uvhq.w);
+  return texture(penumbraTexture, uvhq.xy / uvhq.w).rgb;
 #else
   // Of several receivers, the one that is closest to the fragment. What belongs to it is kept on the way: an array
   // with an index that differs between fragments is slow to read. The height weighs more than what lies beside the
@@ -64,24 +65,21 @@ vec4 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
       reflectance = penumbraReflectance[i];
     }
   }
-  return texture(penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw);
+  return texture(penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw).rgb;
 #endif
 }
 
-// The factor of the diffuse shade: the radiance relative to what it would be unblocked, in the mean of the
-// components; the hue of the light stays. Where no light could arrive, there is no shadow.
+// The factor of the diffuse shade.
 vec3 penumbraShadow(vec4 position)
 {
   vec3 ambient, reflectance;
-  vec4 arriving = penumbraLookUp(position, ambient, reflectance);
-  float unblocked = arriving.a + dot(arriving.rgb + ambient, vec3(1.0 / 3.0));
-  return unblocked > 0.0 ? (arriving.rgb + ambient) / unblocked : vec3(1.0);
+  return penumbraScale * penumbraLookUp(position, ambient, reflectance);
 }
 
 // H&H 1997, eq. 1.
 vec3 penumbraRadiance(vec4 position)
 {
   vec3 ambient, reflectance;
-  vec3 arriving = penumbraLookUp(position, ambient, reflectance).rgb;
+  vec3 arriving = penumbraLookUp(position, ambient, reflectance);
   return reflectance * (ambient + arriving);
 }

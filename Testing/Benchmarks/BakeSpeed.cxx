@@ -127,6 +127,7 @@ BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* windo
     texture->Download(texture->GetRegions().front()).Irradiance, loop.GetIrradiance(), result);
   result.Triangles = reports.front().Triangles.front();
   result.PeakBytesPerTexel = static_cast<double>(reports.front().PeakBytes) / texels;
+  texture->GenerateMipmaps();
   result.ShownBytesPerTexel = static_cast<double>(texture->GetBytes()) / texels;
   result.AllowedBytesPerTexel = reports.front().LightSamples.front() / 8.0 + 24.0;
 
@@ -135,6 +136,7 @@ BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* windo
   {
     const double start = GetTime();
     baker->Bake(scene, { 0 }, window, texture);
+    texture->GenerateMipmaps();
     window->WaitForCompletion();
     masks.push_back(GetTime() - start);
     loop.Bake(scene, 0, window, LiteralLoop::Estimator::PlainSum);
