@@ -16,7 +16,6 @@ namespace
 
 vtkSmartPointer<vtkRenderWindow> TheWindow;
 
-
 } // namespace
 
 vtkOpenGLRenderWindow* GetTestWindow()
