@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockingRegion.h"
 
-#include "RegisteredProjection.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,8 +73,14 @@ std::optional<glm::dvec3> FindCommonNormal(const std::vector<glm::dvec3>& points
 
 } // namespace
 
-BlockingRegion::BlockingRegion(const ReceiverFrame& frame, const LightShape& seen)
+BlockingRegion::BlockingRegion(
+  const ReceiverFrame& frame, const LightShape& seen, const glm::dvec4& uvRange)
+  : FrameRows(glm::transpose(frame.GetWorldToFrame()))
+  , First(uvRange.x, uvRange.y)
+  , Last(uvRange.z, uvRange.w)
 {
+  const glm::dvec3 corner = glm::abs(frame.GetBase().Corner);
+  this->CornerSize = std::max({ corner.x, corner.y, corner.z });
   const LightHull hull = seen.GetHull();
   std::vector<glm::dvec3> points;
   for (const glm::dvec3& p : hull.Points)
@@ -89,10 +93,11 @@ BlockingRegion::BlockingRegion(const ReceiverFrame& frame, const LightShape& see
   for (glm::dvec3 p : GetUpperHull(points))
   {
     p.z = std::max(p.z, SmallestHeight);
-    const glm::dvec3 k = hull.AreDirections ? RegisteredProjection::FromDirection(p).K
-                                            : RegisteredProjection::FromPoint(p).K;
-    this->Low = glm::min(this->Low, glm::dvec2(k));
-    this->High = glm::max(this->High, glm::dvec2(k) - k.z);
+    // (k.x, k.y) - from k.z, where k.z is 0 for a direction.
+    const auto slope = [&](const glm::dvec2& from)
+    { return (glm::dvec2(p) - (hull.AreDirections ? glm::dvec2(0.0) : from)) / p.z; };
+    this->Low = glm::min(this->Low, slope(this->First));
+    this->High = glm::max(this->High, slope(this->Last));
     this->Top = std::max(this->Top, hull.AreDirections ? Infinity : p.z);
   }
   if (!hull.AreDirections && !hull.Points.empty())
@@ -125,7 +130,8 @@ double BlockingRegion::GetDepth(int plane, const glm::dvec3& p) const
   }
   const int axis = plane / 2;
   const bool isLow = plane % 2 == 0;
-  const double bound = isLow ? this->Low[axis] * p.z : 1.0 + this->High[axis] * p.z;
+  const double bound =
+    isLow ? this->First[axis] + this->Low[axis] * p.z : this->Last[axis] + this->High[axis] * p.z;
   const double slack = Rounding * (std::abs(p[axis]) + std::abs(bound) + 1.0);
   return slack + (isLow ? p[axis] - bound : bound - p[axis]);
 }
@@ -141,6 +147,47 @@ bool BlockingRegion::MayHold(const glm::dvec3& a, const glm::dvec3& b, const glm
     }
   }
   return true;
+}
+
+// The slack of GetDepth() at h >= 0, made linear: let r = Rounding and b the bound. What is outside
+// by t <= r (|u| + |b| + 1) has |u| <= |b| + t, so t (1 - r) <= r (2 |b| + 1), and with
+// |b| <= 1 + |low| h that is t <= (3 + 2 |low| h) r / (1 - r) < 4 r (1 + |low| h).
+ConvexRegion BlockingRegion::GetWorldPlanes() const
+{
+  if (!(this->Top > 0.0))
+  {
+    return { { 0.0, 0.0, 0.0, -1.0 } }; // no light, and nothing is inside
+  }
+  constexpr double Widening = 4.0 * Rounding;
+  std::vector<glm::dvec4> planes{ { 0.0, 0.0, 1.0, 0.0 } }; // of (u, v, h, 1)
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    glm::dvec4 low(
+      0.0, 0.0, -this->Low[axis] + Widening * std::abs(this->Low[axis]), -this->First[axis]);
+    glm::dvec4 high(
+      0.0, 0.0, this->High[axis] + Widening * std::abs(this->High[axis]), this->Last[axis]);
+    low[axis] = 1.0;
+    high[axis] = -1.0;
+    planes.insert(planes.end(), { low, high });
+  }
+  if (std::isfinite(this->Top))
+  {
+    planes.push_back({ 0.0, 0.0, -1.0, this->Top * (1.0 + Widening) });
+  }
+  // A plane in the world is the sum of two, one of them at a right angle to the receiver. Let u =
+  // 2^-53 and |n| be the sum of the sizes of its normal's coefficients: those of both are at most
+  // 2.45 |n|. Each coefficient is good to 5 roundings of them, 12 u |n|, which queries allow for.
+  // The distance from the origin takes 7 of these sizes times the corner's, and as many are in what
+  // MayHold() computes: 34 u |n| |corner|, of which this is twice as much.
+  constexpr double Roundings = 32.0 * std::numeric_limits<double>::epsilon();
+  for (glm::dvec4& plane : planes)
+  {
+    plane.w += Widening;
+    plane = this->FrameRows * plane;
+    const glm::dvec3 normal = glm::abs(glm::dvec3(plane));
+    plane.w += Roundings * this->CornerSize * (normal.x + normal.y + normal.z);
+  }
+  return planes;
 }
 
 bool BlockingRegion::IsFar(const glm::dvec3& p)

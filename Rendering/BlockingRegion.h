@@ -7,6 +7,7 @@
 #ifndef BlockingRegion_h
 #define BlockingRegion_h
 
+#include "ClusterTree.h"
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ReceiverFrame.h"
@@ -19,22 +20,33 @@ namespace penumbra
 
 /**
  * A convex region of a receiver's frame that holds every ray from the receiver to a light: what is
- * outside it blocks nothing. It is the union of the pyramids of H&H 1997, 3.2, with the receiver
- * for a base and an apex on the light, bounded by six planes:
+ * outside it blocks nothing. It is the union of the pyramids of H&H 1997, 3.2, with the receiver,
+ * or a part of it from `first` to `last` in (u, v), for a base and an apex on the light, bounded by
+ * six planes:
  *
- *     low h <= (u, v) <= 1 + high h,    0 <= h <= top.
+ *     first + low h <= (u, v) <= last + high h,    0 <= h <= top.
  *
  * On a ray from (u0, v0, 0) to the apex, u = u0 (1 - k.z h) + k.x h with k as in
- * RegisteredProjection, so low is the least k.x and high the greatest k.x - k.z.
+ * RegisteredProjection, and 1 - k.z h >= 0 up to the apex, so low is the least k.x - first k.z and
+ * high the greatest k.x - last k.z.
  */
 class PENUMBRARENDERING_EXPORT BlockingRegion
 {
 public:
   /// @param seen the light, clipped to the receiver's front
-  BlockingRegion(const ReceiverFrame& frame, const LightShape& seen);
+  /// @param uvRange the part of the receiver, from (x, y) to (z, w) in (u, v), within [0, 1]
+  BlockingRegion(const ReceiverFrame& frame, const LightShape& seen,
+    const glm::dvec4& uvRange = { 0.0, 0.0, 1.0, 1.0 });
 
   /// Whether the triangle may have a point in the region: not if one plane has all three outside.
   bool MayHold(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
+
+  /**
+   * The region in the world, without a top if the light is infinitely far. It is a little wider
+   * than this one: whatever MayHold() finds in it above the receiver is in that one, too, though
+   * world coordinates round more.
+   */
+  ConvexRegion GetWorldPlanes() const;
 
   /// The unit normal, in the world, of the plane that a flat light lies in.
   const std::optional<glm::dvec3>& GetLightNormal() const { return this->LightNormal; }
@@ -54,6 +66,9 @@ private:
   /// How far inside the plane a point is.
   double GetDepth(int plane, const glm::dvec3& p) const;
 
+  glm::dmat4 FrameRows{ 1.0 }; ///< columns: u, v and h of homogeneous world points
+  double CornerSize = 0.0;     ///< the largest coordinate of the receiver's corner
+  glm::dvec2 First{ 0.0 }, Last{ 1.0 };
   glm::dvec2 Low{ 0.0 }, High{ 0.0 };
   double Top = 0.0;
   std::optional<glm::dvec3> LightNormal;
