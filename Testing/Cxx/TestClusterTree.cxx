@@ -338,6 +338,19 @@ TEST(ClusterTree, TakesTheLargestNumbers)
   EXPECT_EQ(CountAll(tree, { { 2.0, 2.0, -2.0, largest } }), 200u);
 }
 
+// One over their size is not finite. Halves of halves of 200 are clusters of 50.
+TEST(ClusterTree, TakesTheSmallestNumbers)
+{
+  Mesh mesh;
+  for (int i = 0; i < 200; ++i)
+  {
+    mesh.AddPoint(glm::dvec3(i * std::numeric_limits<double>::denorm_min()));
+  }
+  const ClusterTree tree = mesh.MakeTree();
+  EXPECT_EQ(Count(tree, Everywhere, 200), std::vector<int>(200, 1));
+  EXPECT_EQ(CountAll(tree, Slab(mesh.Points.back(), { 1.0, 0.0, 0.0 })), 50u);
+}
+
 // A plane through a point has it inside, whatever rounding says: planes are rounded to doubles, and
 // their coefficients are off by as much as a region's may be.
 TEST(ClusterTree, FindsWhatTouchesWithinRounding)
