@@ -72,14 +72,14 @@ public:
     // Halves, since the sum of large numbers is not finite.
     const glm::dvec3 origin = 0.5 * all.Low + 0.5 * all.High;
     const double halfSize = MaxNorm(0.5 * all.High - 0.5 * all.Low);
-    const double scale = halfSize > 0.0 ? 1.0 / halfSize : 0.0;
+    const double unit = halfSize > 0.0 ? halfSize : 1.0;
     for (std::size_t i = 0; i < boxes.size(); ++i)
     {
       if (boxes[i].IsValid())
       {
         const glm::dvec3 centre = 0.5 * boxes[i].Low + 0.5 * boxes[i].High;
         this->Entries.push_back(
-          { glm::vec3((centre - origin) * scale), static_cast<std::uint32_t>(i) });
+          { glm::vec3((centre - origin) / unit), static_cast<std::uint32_t>(i) });
       }
     }
   }

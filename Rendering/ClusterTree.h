@@ -67,9 +67,9 @@ class PENUMBRARENDERING_EXPORT ClusterTree
 {
 public:
   /**
-   * Triangles in a cluster, at most. Two nodes of 64 bytes for every 32 triangles or more are 4
-   * bytes a triangle, a third of its indices, and a query that cuts a cluster takes 64 tests of
-   * triangles, about as many as it took tests of nodes to get there in a tree of a million.
+   * Triangles in a cluster, at most. Smaller ones follow a region's border more closely, but need
+   * more nodes: two of 64 bytes for a cluster, which has 32 triangles or more in a large mesh, are
+   * 4 bytes a triangle, a third of its indices.
    */
   static constexpr std::size_t LargestCluster = 64;
 
