@@ -38,11 +38,11 @@ int vtkShadowReceiver::RequestData(
   settings.ErrorTolerance = this->ErrorTolerance;
   settings.MaximumLightSamples = this->MaximumLightSamples;
   settings.Reconstruction = this->Reconstruction;
-  std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
-  if (problem.empty())
-  {
-    problem = settings.FindProblem();
-  }
+  settings.ProxyPlane = this->ProxyPlane;
+  settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
+  settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
+  settings.ProxyNormal = glm::make_vec3(this->ProxyNormal);
+  const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
@@ -71,4 +71,8 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
   os << indent << "MaximumLightSamples: " << this->MaximumLightSamples << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
+  os << indent << "ProxyPlane: " << this->ProxyPlane << "\n";
+  os << indent << "ProxyPlaneMode: " << this->ProxyPlaneMode << "\n";
+  print("ProxyOrigin", this->ProxyOrigin);
+  print("ProxyNormal", this->ProxyNormal);
 }

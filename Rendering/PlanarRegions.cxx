@@ -16,8 +16,6 @@ namespace penumbra
 namespace
 {
 
-/// Of a region's extent: how far its points may stray from its plane.
-constexpr double PlanarityTolerance = 1e-5;
 /// Neighbours that bend by less are meant to be coplanar, if their points say so too.
 const double CoplanarAngle = glm::radians(1.0);
 const double FeatureAngle = glm::radians(29.99); // 30 degrees, if rounded
@@ -307,7 +305,7 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   }
   if (result.Regions.empty())
   {
-    result.Problem = "it has no polygon with an area; allowed: planar polygonal data";
+    result.Problem = NoAreaProblem;
   }
   return result;
 }

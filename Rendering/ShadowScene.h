@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace penumbra
@@ -33,7 +34,7 @@ struct Surface
   glm::dvec3 Rounding{ 0.0 };
 };
 
-/// A receiver: one planar region of one surface.
+/// A receiver: one planar region of one surface, or a plane that stands for all of it.
 struct PENUMBRARENDERING_EXPORT Receiver
 {
   std::size_t Surface = 0;
@@ -42,6 +43,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   ReceiverSettings Settings;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
+  /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
+  /// from here, homogeneous, in the world.
+  std::optional<glm::dvec4> ProxyCentre;
 
   /// Of the texels times Supersampling squared.
   double GetBakedTexels() const;

@@ -31,6 +31,10 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("ErrorTolerance", settings.ErrorTolerance);
   visit("MaximumLightSamples", settings.MaximumLightSamples);
   visit("Reconstruction", settings.Reconstruction);
+  visit("ProxyPlane", settings.ProxyPlane);
+  visit("ProxyPlaneMode", settings.ProxyMode);
+  visit("ProxyOrigin", settings.ProxyOrigin);
+  visit("ProxyNormal", settings.ProxyNormal);
 }
 
 template <typename Settings, typename Visitor>
@@ -57,6 +61,10 @@ struct Writer
   void operator()(const char* name, int value) { this->Add<vtkIntArray>(name, &value, 1); }
   void operator()(const char* name, bool value) { (*this)(name, value ? 1 : 0); }
   void operator()(const char* name, penumbra::ReceiverSide value)
+  {
+    (*this)(name, static_cast<int>(value));
+  }
+  void operator()(const char* name, penumbra::ProxyPlaneMode value)
   {
     (*this)(name, static_cast<int>(value));
   }
@@ -105,6 +113,10 @@ struct Reader
   void operator()(const char* name, penumbra::ReceiverSide& value)
   {
     value = static_cast<penumbra::ReceiverSide>(this->Get(name, 0, 1));
+  }
+  void operator()(const char* name, penumbra::ProxyPlaneMode& value)
+  {
+    value = static_cast<penumbra::ProxyPlaneMode>(this->Get(name, 0, 1));
   }
   void operator()(const char* name, penumbra::LightKind& value)
   {

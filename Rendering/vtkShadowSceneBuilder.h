@@ -6,8 +6,9 @@
  *
  * Data come in by AddData(), each with the matrix of its actor and with the roles that it may play,
  * and go into a penumbra::ShadowScene: polygons, triangle strips and triangles as surfaces that
- * block light, planar regions of data with receiver settings as receivers, and data with light
- * settings as lights.
+ * block light, planar regions of data with receiver settings, or their proxy plane, as receivers,
+ * and data with light settings as lights. Lights come first where data may need a proxy plane: they
+ * decide how it lies (penumbra::PlaceProxy).
  *
  * Data that make no sense (a curved receiver, a light without area, settings out of range) are
  * reported by vtkErrorMacro, with the name under which they came in, and left out; the rest is
@@ -70,9 +71,11 @@ public:
   const penumbra::ShadowScene& GetScene() const { return this->Scene; }
 
   /**
-   * What makes polygonal data unfit to receive shadows, and what is allowed; empty if they are fit.
+   * What makes polygonal data unfit to receive shadows with these settings, or the settings
+   * themselves, and what is allowed; empty if they are fit.
    */
-  static std::string FindReceiverProblem(vtkPolyData* data);
+  static std::string FindReceiverProblem(
+    vtkPolyData* data, const penumbra::ReceiverSettings& settings);
 
   /**
    * What makes polygons unfit to be a light of many cells, and what is allowed; empty if they are

@@ -208,11 +208,16 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
   this->Builder->SetEarlierMessages(earlier->GetMessages());
   this->ReceiverProps.clear();
   VisitParts(renderer,
+    [&](vtkProp*, const Part& part)
+    {
+      this->Builder->AddData(part.Data, part.Matrix, vtkShadowSceneBuilder::Light,
+        Describe(part.Actor), part.Attributes);
+    });
+  VisitParts(renderer,
     [&](vtkProp* prop, const Part& part)
     {
       const std::size_t first = this->GetScene().Receivers.size();
-      const int roles = vtkShadowSceneBuilder::Light |
-        (part.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+      const int roles = (part.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
         (MayReceive(prop, part, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
       this->Builder->AddData(part.Data, part.Matrix, roles, Describe(part.Actor), part.Attributes);
       if (first < this->GetScene().Receivers.size())
