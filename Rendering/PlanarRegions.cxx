@@ -140,7 +140,8 @@ std::string DescribeBend(int a, int b, double angle)
 {
   std::ostringstream text;
   text << "polygons " << a << " and " << b << " meet at an angle of " << glm::degrees(angle)
-       << " degrees; allowed: coplanar neighbours, or edges of 30 degrees and more as a box has";
+       << " degrees; allowed: coplanar neighbours, or edges of 30 degrees and more as a box has; "
+          "or ProxyPlane on, which approximates";
   return text.str();
 }
 
@@ -244,7 +245,8 @@ std::string FitRegion(
   {
     std::ostringstream text;
     text << "it is not planar: the points of the region around polygon " << region.Polygons.front()
-         << " stray by " << stray << " from its plane; allowed: " << tolerance;
+         << " stray by " << stray << " from its plane; allowed: " << tolerance
+         << "; or ProxyPlane on, which approximates";
     return text.str();
   }
   const std::optional<Parallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
