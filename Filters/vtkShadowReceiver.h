@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkShadowReceiver
- * @brief designates planar polygonal data as receivers of soft shadows
+ * @brief designates polygonal data as receivers of soft shadows
  *
  * The output is the input with the properties below as field data, by which vtkSoftShadowPass and
  * vtkRadianceMap know it. Connected coplanar polygons form one receiver: a plane at any resolution
