@@ -4,6 +4,15 @@
 
 namespace penumbra
 {
+namespace
+{
+
+/// Of an actor's several receivers, a fragment belongs to the one that it is closest to. What a
+/// plane stands for is above it by any height and counts as close, but not as close as what lies in
+/// a planar receiver.
+constexpr double ProxyHeight = 1e-3;
+
+} // namespace
 
 glm::dmat4 MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
   const glm::dmat4& viewToClip, const glm::ivec4& viewport)
@@ -44,8 +53,9 @@ glm::dmat4 MakeProxyViewMap(
   const glm::dmat4 toFrame = MakeViewMap(base, worldToView);
   const glm::dvec4 sample = toFrame * (worldToView * centre);
   const glm::dvec3 k = glm::dvec3(sample.x, sample.y, sample.w) / sample.z;
-  glm::dmat4 project(1.0); // RegisteredProjection; the height stays
-  project[2] = { -k.x, -k.y, 1.0, -k.z };
+  glm::dmat4 project(1.0); // RegisteredProjection
+  project[2] = { -k.x, -k.y, -k.z * ProxyHeight, -k.z };
+  project[3].z = ProxyHeight;
   return project * toFrame;
 }
 

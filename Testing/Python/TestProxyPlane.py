@@ -118,7 +118,8 @@ def check_map():
     source = vtk_to_numpy(simple.servermanager.Fetch(floor).GetPoints().GetData())
     share = LAMP[2] / (LAMP[2] - source[:, 2:])
     projected = (LAMP + share * (source - LAMP))[:, :2]
-    excess = max((points[..., :2].min((0, 1)) - projected.min(0)).max(), (projected.max(0) - points[..., :2].max((0, 1))).max())
+    low, high = points[..., :2].min((0, 1)), points[..., :2].max((0, 1))
+    excess = max((low - projected.min(0)).max(), (projected.max(0) - high).max())
     checks.at_most(excess, 1e-4, "map: what projections are outside of the grid")
     depth = plate_depth(cell_centers(grid))
     visibility = cell_array(grid, "Visibility")
