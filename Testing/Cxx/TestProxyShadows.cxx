@@ -78,13 +78,13 @@ struct Plate
   }
 };
 
-/// A bowl, or a part of it from x0 to x1, of 16 x 16 cells.
-Occluders Bowl(long double x0 = -2.0L, long double x1 = 2.0L)
+/// A bowl of 16 x 16 cells over [-2, 2]^2.
+Occluders Bowl()
 {
   constexpr int Side = 16;
-  const auto point = [&](int i, int j)
+  const auto point = [](int i, int j)
   {
-    const long double x = x0 + (x1 - x0) * i / Side, y = 4.0L * j / Side - 2.0L;
+    const long double x = 4.0L * i / Side - 2.0L, y = 4.0L * j / Side - 2.0L;
     return Vec3{ x, y, 0.15L * (x * x + y * y) };
   };
   Occluders triangles;
@@ -99,11 +99,9 @@ Occluders Bowl(long double x0 = -2.0L, long double x1 = 2.0L)
   return triangles;
 }
 
-/// Three steps along x, with what is upright between them.
-Occluders Stairs()
+/// What a line in the plane y = 0 sweeps over from y = -2 to 2: its points are (x, z).
+Occluders Extrude(const std::vector<std::array<long double, 2>>& outline)
 {
-  const std::vector<std::array<long double, 2>> outline{ { -2, 0.4L }, { -1, 0.4L }, { -1, 0.2L },
-    { 0, 0.2L }, { 0, 0 }, { 2, 0 } };
   Occluders triangles;
   for (std::size_t i = 0; i + 1 < outline.size(); ++i)
   {
@@ -114,6 +112,12 @@ Occluders Stairs()
     triangles.push_back({ a, c, d });
   }
   return triangles;
+}
+
+/// Three steps along x, with what is upright between them.
+Occluders Stairs()
+{
+  return Extrude({ { -2, 0.4L }, { -1, 0.4L }, { -1, 0.2L }, { 0, 0.2L }, { 0, 0 }, { 2, 0 } });
 }
 
 vtkSmartPointer<vtkTrivialProducer> MakeSurface(const Occluders& triangles)
@@ -224,6 +228,32 @@ int Judge(const ProxyScene& scene, const std::optional<Vec3>& point)
   return std::abs(depth) <= Blur ? -1 : depth < 0.0L ? 1 : 0;
 }
 
+/// The same where blocks along x shade each other, by rays around the point: all must agree.
+int JudgeAmongBlocks(
+  const ProxyScene& scene, const std::vector<Occluders>& blocks, const Vec3& point)
+{
+  Occluders occluders = scene.Occluder.GetTriangles();
+  const std::size_t own = point.X < -0.82L ? 0 : point.X > 0.3L ? 2 : 1;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    if (i != own)
+    {
+      occluders.insert(occluders.end(), blocks[i].begin(), blocks[i].end());
+    }
+  }
+  const bool isDark = oracletest::Blocks(occluders, point, Lamp);
+  for (int i = 0; i < 8; ++i)
+  {
+    const long double angle = oracletest::Pi * i / 4;
+    const Vec3 offset{ Blur * std::cos(angle), Blur * std::sin(angle), 0.0L };
+    if (oracletest::Blocks(occluders, point + offset, Lamp) != isDark)
+    {
+      return -1;
+    }
+  }
+  return isDark ? 0 : 1;
+}
+
 /// What the pixel would be if the point's foot on the plane z = 0 were looked up.
 int JudgeFoot(const ProxyScene& scene, std::optional<Vec3> point)
 {
@@ -236,7 +266,9 @@ int JudgeFoot(const ProxyScene& scene, std::optional<Vec3> point)
 
 /// Compares all pixels, whose neighbours are decided as they are, with the rays; the answer is how
 /// many there were.
-void ExpectShadowsByRays(ProxyScene& scene, int& dark, int& lit, int& displaced)
+template <typename Judgement>
+void ExpectShadowsByRays(
+  ProxyScene& scene, const Judgement& judge, int& dark, int& lit, int& displaced)
 {
   const PassScene::Pixels shadowed = scene.Render();
   scene.SetShadows(false);
@@ -247,7 +279,7 @@ void ExpectShadowsByRays(ProxyScene& scene, int& dark, int& lit, int& displaced)
   for (int i = 0; i < width * height; ++i)
   {
     points.push_back(scene.FindPoint(i % width, i / width));
-    wanted.push_back(Judge(scene, points.back()));
+    wanted.push_back(judge(points.back()));
   }
   dark = lit = displaced = 0;
   for (int y = 1; y + 1 < height; ++y)
@@ -275,6 +307,12 @@ void ExpectShadowsByRays(ProxyScene& scene, int& dark, int& lit, int& displaced)
   }
 }
 
+void ExpectShadowsByRays(ProxyScene& scene, int& dark, int& lit, int& displaced)
+{
+  const auto judge = [&](const std::optional<Vec3>& point) { return Judge(scene, point); };
+  ExpectShadowsByRays(scene, judge, dark, lit, displaced);
+}
+
 void ExpectManyPixels(int dark, int lit, int displaced)
 {
   testing::Test::RecordProperty("Dark", dark);
@@ -296,34 +334,40 @@ TEST(ProxyShadows, LieOnABowlWhereRaysSay)
   EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 1);
 }
 
-// Of several planes, and a floor as well, each pixel finds its own.
+// Of an actor's several receivers, each pixel finds its own. The lower floor is in the proxy plane,
+// within the rectangle that the steps are projected to; the upper step is in the upper floor's
+// plane, and closer to it than to its own.
 TEST(ProxyShadows, LieOnBlocksWhereRaysSay)
 {
-  const std::vector<Occluders> parts{ Bowl(-2.0L, -0.8L), Bowl(0.8L, 2.0L),
-    { { { -0.6L, -2, 0 }, { 0.6L, -2, 0 }, { 0.6L, 2, 0 } },
-      { { -0.6L, -2, 0 }, { 0.6L, 2, 0 }, { -0.6L, 2, 0 } } } };
+  const std::vector<Occluders> blocks{ Extrude({ { -2, 0 }, { -0.85L, 0 } }),
+    Extrude({ { -0.8L, 0.6L }, { -0.3L, 0.6L }, { -0.3L, 0 }, { 0.2L, 0 } }),
+    Extrude({ { 0.4L, 0.6L }, { 2, 0.6L } }) };
   Occluders all;
   vtkNew<vtkMultiBlockDataGroupFilter> group;
-  for (const Occluders& part : parts)
+  for (const std::size_t i : { 1, 0, 2 }) // the steps come first
   {
-    all.insert(all.end(), part.begin(), part.end());
+    all.insert(all.end(), blocks[i].begin(), blocks[i].end());
     vtkNew<vtkShadowReceiver> receiver;
-    receiver->SetInputConnection(MakeSurface(part)->GetOutputPort());
+    receiver->SetInputConnection(MakeSurface(blocks[i])->GetOutputPort());
     receiver->SetTexelSize(TexelSize);
     receiver->ProxyPlaneOn();
+    receiver->SetProxyPlaneMode(vtkShadowReceiver::GIVEN); // z = 0
     group->AddInputConnection(receiver->GetOutputPort());
   }
   ProxyScene scene(all);
   vtkNew<CompositeMapper> mapper;
   mapper->SetInputConnection(group->GetOutputPort());
   scene.FloorActor->SetMapper(mapper);
+  const auto judge = [&](const std::optional<Vec3>& point)
+  { return point ? JudgeAmongBlocks(scene, blocks, *point) : -1; };
   for (const bool isLit : { true, false })
   {
     scene.FloorActor->GetProperty()->SetLighting(isLit);
     scene.SetShadows(true);
     int dark, lit, displaced;
-    ExpectShadowsByRays(scene, dark, lit, displaced);
-    ExpectManyPixels(dark, lit, displaced);
+    ExpectShadowsByRays(scene, judge, dark, lit, displaced);
+    EXPECT_GT(dark, 1000);
+    EXPECT_GT(lit, 10000);
     EXPECT_EQ(scene.Pass->GetNumberOfReceivers(), 3);
   }
 }
