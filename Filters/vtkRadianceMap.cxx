@@ -173,10 +173,10 @@ int vtkRadianceMap::RequestData(
 {
   vtkNew<vtkShadowSceneBuilder> builder;
   using Builder = vtkShadowSceneBuilder;
+  AddInputs(builder, inputVector[LIGHTS], "Lights", Builder::Light);
   const std::vector<std::size_t> ends = AddInputs(builder, inputVector[RECEIVERS], "Receivers",
     Builder::Receiver | Builder::DefaultReceiver | Builder::Occluder);
   AddInputs(builder, inputVector[OCCLUDERS], "Occluders", Builder::Occluder);
-  AddInputs(builder, inputVector[LIGHTS], "Lights", Builder::Light);
 
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   const penumbra::ShadowScene& scene = builder->GetScene();

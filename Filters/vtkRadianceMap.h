@@ -11,6 +11,9 @@
  * - port 1, Occluders (any number): surfaces that block light;
  * - port 2, Lights (any number): output of vtkAreaLightSource or vtkAreaLightFromSurface.
  *
+ * A surface that receives by a proxy plane (vtkShadowReceiver::ProxyPlane) is one receiver: the
+ * plane.
+ *
  * The output has a vtkStructuredGrid for each receiver, in the order of the inputs and of the
  * polygons in each. Its cells are the texels: points (double) at b + i/sx ex + j/sy ey, i fastest,
  * and the cell arrays

@@ -41,11 +41,11 @@ int vtkShadowReceiver::RequestData(
   settings.Planner = this->Planner;
   settings.PlannerTolerance = this->PlannerTolerance;
   settings.HardPenumbra = this->HardPenumbra;
-  std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
-  if (problem.empty())
-  {
-    problem = settings.FindProblem();
-  }
+  settings.ProxyPlane = this->ProxyPlane;
+  settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
+  settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
+  settings.ProxyNormal = glm::make_vec3(this->ProxyNormal);
+  const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
@@ -77,4 +77,8 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Planner: " << this->Planner << "\n";
   os << indent << "PlannerTolerance: " << this->PlannerTolerance << "\n";
   os << indent << "HardPenumbra: " << this->HardPenumbra << "\n";
+  os << indent << "ProxyPlane: " << this->ProxyPlane << "\n";
+  os << indent << "ProxyPlaneMode: " << this->ProxyPlaneMode << "\n";
+  print("ProxyOrigin", this->ProxyOrigin);
+  print("ProxyNormal", this->ProxyNormal);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkShadowReceiver
- * @brief designates planar polygonal data as receivers of soft shadows
+ * @brief designates polygonal data as receivers of soft shadows
  *
  * The output is the input with the properties below as field data, by which vtkSoftShadowPass and
  * vtkRadianceMap know it. Connected coplanar polygons form one receiver: a plane at any resolution
@@ -12,7 +12,8 @@
  *
  * A surface that is curved, or has no polygon with an area, is an error and passes without
  * settings, but with the error as field data: it will be drawn plain, not baked, and nobody reports
- * it again. So is a property out of its range.
+ * it again. So is a property out of its range. With ProxyPlane, a curved surface receives by a
+ * plane that stands for it.
  *
  * @sa vtkAreaLightSource, vtkRadianceMap, vtkSoftShadowPass
  */
@@ -45,6 +46,14 @@ public:
     AUTO = 0,  ///< the side that gets more light
     FRONT = 1, ///< the side from which its polygons are seen counter-clockwise
     BACK = 2
+  };
+
+  /// Planes that may stand for a surface.
+  enum ProxyPlaneModes
+  {
+    BEST_FIT = 0, ///< of least squared distance, moved to the surface's deepest point below the
+                  ///< lit side; its front is where more of the surface's area points
+    GIVEN = 1     ///< by ProxyOrigin and ProxyNormal
   };
 
   ///@{
@@ -176,8 +185,8 @@ public:
 
   ///@{
   /**
-   * How much of the receiver's unoccluded peak the planner may leave out, 0 to 1: lights that add up
-   * to less. Default is 1/1024, a quarter of a level of an 8-bit picture.
+   * How much of the receiver's unoccluded peak the planner may leave out, 0 to 1: lights that add
+   * up to less. Default is 1/1024, a quarter of a level of an 8-bit picture.
    */
   vtkSetMacro(PlannerTolerance, double);
   vtkGetMacro(PlannerTolerance, double);
@@ -185,12 +194,54 @@ public:
 
   ///@{
   /**
-   * In texels: where no penumbra of a light can be wider, the planner takes one sample of it. A texel
-   * that such a penumbra crosses is then wholly lit or dark. 0 leaves that to lights without extent,
-   * as does an ErrorTolerance. Default is 1.
+   * In texels: where no penumbra of a light can be wider, the planner takes one sample of it. A
+   * texel that such a penumbra crosses is then wholly lit or dark. 0 leaves that to lights without
+   * extent, as does an ErrorTolerance. Default is 1.
    */
   vtkSetMacro(HardPenumbra, double);
   vtkGetMacro(HardPenumbra, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a surface that is not planar receives by a plane that stands for it (Heckbert and Herf
+   * 1997, figure 5): shadows are computed on the plane, and each point of the surface shows the one
+   * at its projection from the light's centre. The whole surface is then one receiver. That is an
+   * approximation:
+   * - the surface casts no shadow on itself;
+   * - penumbras are as wide as on the plane, and radiance is that of the plane, its cosine too;
+   * - of several lights, the projection is from the mean of their centres, weighted by the light
+   *   that each sends: on what stands out from the plane, the shadows of each are displaced;
+   * - what lies between the surface and the plane, such as a table below its cloth, casts shadows
+   *   too: give a plane above it.
+   *
+   * On planar surfaces it changes nothing. A surface that is closed, or as thick as wide, needs a
+   * given plane if none fits best. Lights must be above the surface, on one side of the plane, and
+   * not so low that the projections reach 16 times its extent; otherwise it is drawn plain, with an
+   * error. Default is off.
+   */
+  vtkSetMacro(ProxyPlane, bool);
+  vtkGetMacro(ProxyPlane, bool);
+  vtkBooleanMacro(ProxyPlane, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Which plane stands for the surface: see ProxyPlaneModes. Default is BEST_FIT.
+   */
+  vtkSetMacro(ProxyPlaneMode, int);
+  vtkGetMacro(ProxyPlaneMode, int);
+  ///@}
+
+  ///@{
+  /**
+   * A point of the given plane and its normal, of any length but 0, towards its front; in the
+   * coordinates of the data. Defaults are (0, 0, 0) and (0, 0, 1).
+   */
+  vtkSetVector3Macro(ProxyOrigin, double);
+  vtkGetVector3Macro(ProxyOrigin, double);
+  vtkSetVector3Macro(ProxyNormal, double);
+  vtkGetVector3Macro(ProxyNormal, double);
   ///@}
 
 protected:
@@ -220,6 +271,10 @@ private:
   bool Planner = true;
   double PlannerTolerance = 1.0 / 1024.0;
   double HardPenumbra = 1.0;
+  bool ProxyPlane = false;
+  int ProxyPlaneMode = BEST_FIT;
+  double ProxyOrigin[3] = { 0.0, 0.0, 0.0 };
+  double ProxyNormal[3] = { 0.0, 0.0, 1.0 };
 };
 
 #endif

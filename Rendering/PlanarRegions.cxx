@@ -16,8 +16,6 @@ namespace penumbra
 namespace
 {
 
-/// Of a region's extent: how far its points may stray from its plane.
-constexpr double PlanarityTolerance = 1e-5;
 /// Neighbours that bend by less are meant to be coplanar, if their points say so too.
 const double CoplanarAngle = glm::radians(1.0);
 const double FeatureAngle = glm::radians(29.99); // 30 degrees, if rounded
@@ -142,7 +140,8 @@ std::string DescribeBend(int a, int b, double angle)
 {
   std::ostringstream text;
   text << "polygons " << a << " and " << b << " meet at an angle of " << glm::degrees(angle)
-       << " degrees; allowed: coplanar neighbours, or edges of 30 degrees and more as a box has";
+       << " degrees; allowed: coplanar neighbours, or edges of 30 degrees and more as a box has; "
+          "or ProxyPlane on, which approximates";
   return text.str();
 }
 
@@ -246,7 +245,8 @@ std::string FitRegion(
   {
     std::ostringstream text;
     text << "it is not planar: the points of the region around polygon " << region.Polygons.front()
-         << " stray by " << stray << " from its plane; allowed: " << tolerance;
+         << " stray by " << stray << " from its plane; allowed: " << tolerance
+         << "; or ProxyPlane on, which approximates";
     return text.str();
   }
   const std::optional<Parallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
@@ -307,7 +307,7 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   }
   if (result.Regions.empty())
   {
-    result.Problem = "it has no polygon with an area; allowed: planar polygonal data";
+    result.Problem = NoAreaProblem;
   }
   return result;
 }

@@ -37,6 +37,13 @@ struct PlanarRegion
 constexpr const char* NotFiniteProblem =
   "a point has a coordinate that is not finite (nan or inf); allowed: finite coordinates";
 
+/// The problem of a mesh without a polygon that has an area.
+constexpr const char* NoAreaProblem =
+  "it has no polygon with an area; allowed: planar polygonal data";
+
+/// Of a region's extent: how far its points may stray from its plane.
+constexpr double PlanarityTolerance = 1e-5;
+
 /// What FindPlanarRegions() answers.
 struct PlanarRegions
 {

@@ -4,6 +4,15 @@
 
 namespace penumbra
 {
+namespace
+{
+
+/// Of an actor's several receivers, a fragment belongs to the one that it is closest to. What a
+/// plane stands for is above it by any height and counts as close, but not as close as what lies in
+/// a planar receiver.
+constexpr double ProxyHeight = 1e-3;
+
+} // namespace
 
 glm::dmat4 MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
   const glm::dmat4& viewToClip, const glm::ivec4& viewport)
@@ -36,6 +45,32 @@ glm::dmat4 MakeViewMap(const Parallelogram& base, const glm::dmat4& worldToView)
   const Parallelogram seen{ glm::dvec3(worldToView * glm::dvec4(base.Corner, 1.0)),
     turn * base.EdgeX, turn * base.EdgeY };
   return ReceiverFrame(seen, ReceiverFrame::Side::Front).GetWorldToFrame();
+}
+
+glm::dmat4 MakeProxyViewMap(
+  const Parallelogram& base, const glm::dvec4& centre, const glm::dmat4& worldToView)
+{
+  const glm::dmat4 toFrame = MakeViewMap(base, worldToView);
+  const glm::dvec4 sample = toFrame * (worldToView * centre);
+  const glm::dvec3 k = glm::dvec3(sample.x, sample.y, sample.w) / sample.z;
+  glm::dmat4 project(1.0); // RegisteredProjection
+  project[2] = { -k.x, -k.y, -k.z * ProxyHeight, -k.z };
+  project[3].z = ProxyHeight;
+  return project * toFrame;
+}
+
+glm::dmat4 MakeProxyScreenMap(const Parallelogram& base, const glm::dvec4& centre,
+  const glm::dmat4& worldToView, const glm::dmat4& viewToClip, const glm::ivec4& viewport)
+{
+  glm::dmat4 windowToDevice(1.0);
+  for (int i = 0; i < 2; ++i)
+  {
+    windowToDevice[i][i] = 2.0 / viewport[2 + i];
+    windowToDevice[3][i] = -1.0 - 2.0 * viewport[i] / viewport[2 + i];
+  }
+  windowToDevice[2][2] = 2.0; // depth is [0, 1]
+  windowToDevice[3][2] = -1.0;
+  return MakeProxyViewMap(base, centre, worldToView) * glm::inverse(viewToClip) * windowToDevice;
 }
 
 } // namespace penumbra

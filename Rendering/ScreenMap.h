@@ -34,6 +34,20 @@ PENUMBRARENDERING_EXPORT glm::dmat4 MakeScreenMap(const Parallelogram& base,
 PENUMBRARENDERING_EXPORT glm::dmat4 MakeViewMap(
   const Parallelogram& base, const glm::dmat4& worldToView);
 
+///@{
+/**
+ * The same two for a plane that stands for a surface (PlaceProxy): (u q, v q) is where the point of
+ * the surface is projected to from `centre`, homogeneous, in the world; h is the same small number
+ * for all. What lies between the camera and the plane counts here, so the second inverts the
+ * camera's projection, depth and all.
+ */
+PENUMBRARENDERING_EXPORT glm::dmat4 MakeProxyViewMap(
+  const Parallelogram& base, const glm::dvec4& centre, const glm::dmat4& worldToView);
+PENUMBRARENDERING_EXPORT glm::dmat4 MakeProxyScreenMap(const Parallelogram& base,
+  const glm::dvec4& centre, const glm::dmat4& worldToView, const glm::dmat4& viewToClip,
+  const glm::ivec4& viewport);
+///@}
+
 } // namespace penumbra
 
 #endif

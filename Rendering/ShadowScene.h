@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace penumbra
@@ -60,7 +61,7 @@ private:
   std::shared_ptr<const Indexed> Shared;
 };
 
-/// A receiver: one planar region of one surface.
+/// A receiver: one planar region of one surface, or a plane that stands for all of it.
 struct PENUMBRARENDERING_EXPORT Receiver
 {
   std::size_t Surface = 0;
@@ -69,6 +70,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   ReceiverSettings Settings;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
+  /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
+  /// from here, homogeneous, in the world.
+  std::optional<glm::dvec4> ProxyCentre;
 
   /// Of the texels times Supersampling squared.
   double GetBakedTexels() const;

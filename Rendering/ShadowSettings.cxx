@@ -55,7 +55,7 @@ bool ReceiverSettings::operator==(const ReceiverSettings& other) const
     return std::tie(s.TexelSize, s.LightSamples, s.SampleMultiplier, s.SamplingPattern,
       s.Supersampling, s.Reflectance, s.AmbientRadiance, s.Side, s.Seed, s.SolidAnglePerSample,
       s.ErrorTolerance, s.MaximumLightSamples, s.Reconstruction, s.Planner, s.PlannerTolerance,
-      s.HardPenumbra);
+      s.HardPenumbra, s.ProxyPlane, s.ProxyMode, s.ProxyOrigin, s.ProxyNormal);
   };
   return tie(*this) == tie(other);
 }
@@ -114,7 +114,40 @@ std::string ReceiverSettings::FindProblem() const
     return Describe("MaximumLightSamples", this->MaximumLightSamples, "1 to 65536");
   }
   const int side = static_cast<int>(this->Side);
-  return side < 0 || side > 2 ? Describe("Side", side, "0 (Auto), 1 (Front) or 2 (Back)") : "";
+  if (side < 0 || side > 2)
+  {
+    return Describe("Side", side, "0 (Auto), 1 (Front) or 2 (Back)");
+  }
+  return this->ProxyPlane ? this->FindProxyProblem() : "";
+}
+
+std::string ReceiverSettings::FindProxyProblem() const
+{
+  const int mode = static_cast<int>(this->ProxyMode);
+  if (mode < 0 || mode > 1)
+  {
+    return Describe("ProxyPlaneMode", mode, "0 (Best Fit) or 1 (Given)");
+  }
+  if (this->ProxyMode == ProxyPlaneMode::BestFit)
+  {
+    return "";
+  }
+  if (!IsFinite(this->ProxyOrigin))
+  {
+    return Describe("ProxyOrigin", this->ProxyOrigin, "finite coordinates");
+  }
+  const double length = glm::length(this->ProxyNormal);
+  return length > 0.0 && std::isfinite(length)
+    ? ""
+    : Describe("ProxyNormal", this->ProxyNormal, "a direction: finite, and not (0, 0, 0)");
+}
+
+ReceiverSettings ReceiverSettings::Transformed(const glm::dmat4& matrix) const
+{
+  ReceiverSettings result = *this;
+  result.ProxyOrigin = glm::dvec3(matrix * glm::dvec4(this->ProxyOrigin, 1.0));
+  result.ProxyNormal = glm::transpose(glm::inverse(glm::dmat3(matrix))) * this->ProxyNormal;
+  return result;
 }
 
 int ReceiverSettings::GetSampleCount() const

@@ -23,6 +23,14 @@ enum class ReceiverSide
   Back = 2
 };
 
+/// Which plane stands for a surface that is not planar; the values are those of the property
+/// ProxyPlaneMode.
+enum class ProxyPlaneMode
+{
+  BestFit = 0,
+  Given = 1 ///< by ProxyOrigin and ProxyNormal
+};
+
 /// The settings of a receiver: the properties of vtkShadowReceiver, which documents them.
 struct PENUMBRARENDERING_EXPORT ReceiverSettings
 {
@@ -44,12 +52,19 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
   double HardPenumbra = 1.0;
 
   bool operator==(const ReceiverSettings& other) const;
+  bool ProxyPlane = false;
+  ProxyPlaneMode ProxyMode = ProxyPlaneMode::BestFit;
+  glm::dvec3 ProxyOrigin{ 0.0 };
+  glm::dvec3 ProxyNormal{ 0.0, 0.0, 1.0 };
 
   /// The largest number of samples of one light.
   static constexpr int MostLightSamples = 65536;
 
   /// Empty if every value makes sense; otherwise names the first that does not and what is allowed.
   std::string FindProblem() const;
+
+  /// The same for data that an affine map moves: the given proxy plane goes with them.
+  ReceiverSettings Transformed(const glm::dmat4& matrix) const;
 
   /// LightSamples x SampleMultiplier, at least 1, at most MostLightSamples.
   int GetSampleCount() const;
@@ -60,6 +75,9 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
    * (H&H 1997, 3.7); else, and for lights without solid angle, GetSampleCount().
    */
   int GetSampleCount(double solidAngle) const;
+
+private:
+  std::string FindProxyProblem() const;
 };
 
 /// The kinds of lights; the values are those of the property Shape.

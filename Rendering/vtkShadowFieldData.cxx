@@ -34,6 +34,10 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("Planner", settings.Planner);
   visit("PlannerTolerance", settings.PlannerTolerance);
   visit("HardPenumbra", settings.HardPenumbra);
+  visit("ProxyPlane", settings.ProxyPlane);
+  visit("ProxyPlaneMode", settings.ProxyMode);
+  visit("ProxyOrigin", settings.ProxyOrigin);
+  visit("ProxyNormal", settings.ProxyNormal);
 }
 
 template <typename Settings, typename Visitor>
@@ -60,6 +64,10 @@ struct Writer
   void operator()(const char* name, int value) { this->Add<vtkIntArray>(name, &value, 1); }
   void operator()(const char* name, bool value) { (*this)(name, value ? 1 : 0); }
   void operator()(const char* name, penumbra::ReceiverSide value)
+  {
+    (*this)(name, static_cast<int>(value));
+  }
+  void operator()(const char* name, penumbra::ProxyPlaneMode value)
   {
     (*this)(name, static_cast<int>(value));
   }
@@ -108,6 +116,10 @@ struct Reader
   void operator()(const char* name, penumbra::ReceiverSide& value)
   {
     value = static_cast<penumbra::ReceiverSide>(this->Get(name, 0, 1));
+  }
+  void operator()(const char* name, penumbra::ProxyPlaneMode& value)
+  {
+    value = static_cast<penumbra::ProxyPlaneMode>(this->Get(name, 0, 1));
   }
   void operator()(const char* name, penumbra::LightKind& value)
   {

@@ -3,6 +3,8 @@
 #include "vtkShadowSceneBuilder.h"
 
 #include "PlanarRegions.h"
+#include "ProxyPlane.h"
+#include "ProxyReceiver.h"
 #include "SurfaceLight.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -112,6 +114,20 @@ penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Sur
     }
   }
   return mesh;
+}
+
+/// All polygons as the one region of a receiver in a proxy plane.
+penumbra::PlanarRegions PlaceOnProxy(const penumbra::PolygonMesh& mesh,
+  const penumbra::ShadowScene& scene, penumbra::Receiver& receiver)
+{
+  const penumbra::ProxyReceiver proxy = penumbra::PlaceProxy(mesh, receiver.Settings, scene);
+  receiver.Settings.Side = proxy.Side;
+  receiver.ProxyCentre = proxy.Centre;
+  penumbra::PlanarRegions region;
+  region.RegionOfPolygon.assign(mesh.Polygons.size(), 0);
+  region.Regions.emplace_back().Base = proxy.Base;
+  region.Problem = proxy.Problem;
+  return region;
 }
 
 /// Only polygons: vertices and lines neither block nor receive, and strips become triangles.
@@ -353,7 +369,7 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   TransformPoints(polygons, ToGlm(matrix), surface);
   if (receiver)
   {
-    problem = this->AddReceivers(polygons, *receiver, surface, name);
+    problem = this->AddReceivers(polygons, receiver->Transformed(ToGlm(matrix)), surface, name);
   }
   const vtkIdType dropped = DropInfinitePolygons(surface, polygons);
   if (dropped > 0 && problem != penumbra::NotFiniteProblem)
@@ -372,9 +388,21 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
 {
   std::string problem = settings.FindProblem();
   penumbra::PlanarRegions found;
+  penumbra::Receiver receiver;
+  receiver.Surface = this->Scene.Surfaces.size();
+  receiver.Settings = settings;
   if (problem.empty())
   {
-    found = penumbra::FindPlanarRegions(MakePolygonMesh(polygons, surface));
+    const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface);
+    found = penumbra::FindPlanarRegions(mesh);
+    if (penumbra::NeedsProxyPlane(mesh, found, settings))
+    {
+      penumbra::ShadowScene lit;
+      lit.Lights = this->OtherLights;
+      lit.Lights.insert(lit.Lights.end(), this->Scene.Lights.begin(), this->Scene.Lights.end());
+      found = PlaceOnProxy(mesh, lit, receiver);
+      this->HasProxy = true;
+    }
     problem = found.Problem;
   }
   if (!problem.empty())
@@ -386,11 +414,8 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   const std::size_t first = this->Scene.Receivers.size();
   for (std::size_t i = 0; i < found.Regions.size(); ++i)
   {
-    penumbra::Receiver receiver;
-    receiver.Surface = this->Scene.Surfaces.size();
     receiver.Region = static_cast<int>(i);
     receiver.Base = found.Regions[i].Base;
-    receiver.Settings = settings;
     this->Scene.Receivers.push_back(receiver);
   }
   const double growth = this->Scene.ChooseTexels(first);
@@ -434,12 +459,22 @@ bool vtkShadowSceneBuilder::IsNew(const std::string& message)
   return this->Messages.insert(message).second && this->EarlierMessages.count(message) == 0;
 }
 
-std::string vtkShadowSceneBuilder::FindReceiverProblem(vtkPolyData* data)
+std::string vtkShadowSceneBuilder::FindReceiverProblem(
+  vtkPolyData* data, const penumbra::ReceiverSettings& settings)
 {
+  const std::string problem = settings.FindProblem();
+  if (!problem.empty())
+  {
+    return problem;
+  }
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
   penumbra::Surface surface;
   TransformPoints(polygons, glm::dmat4(1.0), surface);
-  return penumbra::FindPlanarRegions(MakePolygonMesh(polygons, surface)).Problem;
+  const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface);
+  const penumbra::PlanarRegions found = penumbra::FindPlanarRegions(mesh);
+  return penumbra::NeedsProxyPlane(mesh, found, settings)
+    ? penumbra::FindProxyPlane(mesh, settings).Problem
+    : found.Problem;
 }
 
 void vtkShadowSceneBuilder::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,8 +6,9 @@
  *
  * Data come in by AddData(), each with the matrix of its actor and with the roles that it may play,
  * and go into a penumbra::ShadowScene: polygons, triangle strips and triangles as surfaces that
- * block light, planar regions of data with receiver settings as receivers, and data with light
- * settings as lights.
+ * block light, planar regions of data with receiver settings, or their proxy plane, as receivers,
+ * and data with light settings as lights. Lights come first where data may need a proxy plane: they
+ * decide how it lies (penumbra::PlaceProxy).
  *
  * Data that make no sense (a curved receiver, a light without area, settings out of range) are
  * reported by vtkErrorMacro, with the name under which they came in, and left out; the rest is
@@ -22,6 +23,7 @@
 
 #include <set>    // for messages
 #include <string> // for names
+#include <vector> // for lights
 
 class vtkCompositeDataDisplayAttributes;
 class vtkDataObject;
@@ -54,6 +56,15 @@ public:
 
   ///@{
   /**
+   * Lights that others have added: with those of the data, they decide how proxy planes lie.
+   * Whether any data needed to know them.
+   */
+  void SetLights(const std::vector<penumbra::Light>& lights) { this->OtherLights = lights; }
+  bool DependsOnLights() const { return this->HasProxy; }
+  ///@}
+
+  ///@{
+  /**
    * The errors and warnings so far, and those that are not to be printed again: of an earlier
    * scene, much of which is the same.
    */
@@ -70,9 +81,11 @@ public:
   const penumbra::ShadowScene& GetScene() const { return this->Scene; }
 
   /**
-   * What makes polygonal data unfit to receive shadows, and what is allowed; empty if they are fit.
+   * What makes polygonal data unfit to receive shadows with these settings, or the settings
+   * themselves, and what is allowed; empty if they are fit.
    */
-  static std::string FindReceiverProblem(vtkPolyData* data);
+  static std::string FindReceiverProblem(
+    vtkPolyData* data, const penumbra::ReceiverSettings& settings);
 
   /**
    * What makes polygons unfit to be a light of many cells, and what is allowed; empty if they are
@@ -103,6 +116,8 @@ private:
   bool IsNew(const std::string& message);
 
   penumbra::ShadowScene Scene;
+  std::vector<penumbra::Light> OtherLights;
+  bool HasProxy = false;
   std::set<std::string> Messages;
   std::set<std::string> EarlierMessages;
 };

@@ -201,6 +201,15 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
   {
     return false;
   }
+  this->Build(renderer, onlyDesignated, parts);
+  this->Parts = std::move(parts);
+  this->Assemble();
+  return true;
+}
+
+void vtkShadowSceneCollector::Build(
+  vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts)
+{
   std::map<Signature, const Part*> before;
   std::map<std::uint64_t, std::set<std::string>> messages; // by the actor
   for (const Part& part : this->Parts)
@@ -208,28 +217,53 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
     before.emplace(part.Seen, &part);
     messages[part.Seen.front()] = part.Builder->GetMessages();
   }
+  // Lights come first: they decide how a proxy plane lies.
+  std::vector<penumbra::Light> lights;
   std::size_t i = 0;
+  bool areLightsOthers = false;
   VisitParts(renderer,
-    [&](vtkProp* prop, const VisitedPart& visited)
+    [&](vtkProp*, const VisitedPart& visited)
     {
       Part& part = parts[i++];
       const auto same = before.find(part.Seen);
       if (same != before.end())
       {
         part = *same->second;
-        return;
       }
-      const int roles = vtkShadowSceneBuilder::Light |
-        (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
-        (MayReceive(prop, visited, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
-      part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
-      part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
-      part.Builder->AddData(
-        visited.Data, visited.Matrix, roles, Describe(visited.Actor), visited.Attributes);
+      else
+      {
+        part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
+        part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
+        part.Builder->AddData(visited.Data, visited.Matrix, vtkShadowSceneBuilder::Light,
+          Describe(visited.Actor), visited.Attributes);
+        part.IsNew = true;
+      }
+      const std::vector<penumbra::Light>& own = part.Builder->GetScene().Lights;
+      lights.insert(lights.end(), own.begin(), own.end());
+      areLightsOthers = areLightsOthers || (part.IsNew && !own.empty());
     });
-  this->Parts = std::move(parts);
-  this->Assemble();
-  return true;
+  areLightsOthers = areLightsOthers || lights.size() != this->Scene.Lights.size();
+  i = 0;
+  VisitParts(renderer,
+    [&](vtkProp* prop, const VisitedPart& visited)
+    {
+      Part& part = parts[i++];
+      if (!part.IsNew && areLightsOthers && part.Builder->DependsOnLights())
+      {
+        part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
+        part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
+        part.IsNew = true;
+      }
+      if (part.IsNew)
+      {
+        const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+          (MayReceive(prop, visited, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
+        part.Builder->SetLights(lights);
+        part.Builder->AddData(
+          visited.Data, visited.Matrix, roles, Describe(visited.Actor), visited.Attributes);
+        part.IsNew = false;
+      }
+    });
 }
 
 void vtkShadowSceneCollector::Assemble()

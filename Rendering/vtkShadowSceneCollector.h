@@ -66,7 +66,9 @@ private:
     Signature Seen;
     vtkSmartPointer<vtkShadowSceneBuilder> Builder;
     vtkWeakPointer<vtkProp> Prop;
+    bool IsNew = false; ///< while it is being built
   };
+  void Build(vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts);
   void Assemble();
 
   std::vector<Part> Parts; ///< in the order of the renderer's props

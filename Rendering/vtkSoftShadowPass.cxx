@@ -139,6 +139,21 @@ bool AddVarying(std::string& vertexShader, const std::string& geometryShader)
   return vertexShader.find("out vec2 penumbraUVVSOutput") != std::string::npos;
 }
 
+/// What takes a fragment's position to its place on the receiver: in the view, or on the screen.
+glm::dmat4 MakeMap(const penumbra::Receiver& receiver, bool fromView, const glm::dmat4& worldToView,
+  const glm::dmat4& viewToClip, const glm::ivec4& viewport)
+{
+  const penumbra::Parallelogram& base = receiver.Base;
+  if (receiver.ProxyCentre)
+  {
+    const glm::dvec4& centre = *receiver.ProxyCentre;
+    return fromView ? penumbra::MakeProxyViewMap(base, centre, worldToView)
+                    : penumbra::MakeProxyScreenMap(base, centre, worldToView, viewToClip, viewport);
+  }
+  return fromView ? penumbra::MakeViewMap(base, worldToView)
+                  : penumbra::MakeScreenMap(base, worldToView, viewToClip, viewport);
+}
+
 /// Uniforms that a receiver takes, in units of four floats, and what is left to VTK's own.
 constexpr int VectorsPerReceiver = 7;
 constexpr int VectorsOfVTK = 128;
@@ -438,12 +453,19 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   const ShownProp& shown = this->Impl->Shown[index];
   std::string defines =
     "#define PENUMBRA_RECEIVERS " + std::to_string(shown.CountReceivers()) + "\n";
+  const std::vector<vtkBakedProp::Entry>& entries = shown.Baked->GetEntries();
+  const bool hasProxy = std::any_of(entries.begin(), entries.end(),
+    [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
   std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
   if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
   {
     defines += "#define PENUMBRA_VIEW\n";
     position = "vec4(vertexVC.xyz, 1.0)";
-    if (shown.CountReceivers() == 1 && AddVarying(vertexShader, geometryShader))
+    if (hasProxy)
+    {
+      defines += "#define PENUMBRA_PROXY\n";
+    }
+    else if (shown.CountReceivers() == 1 && AddVarying(vertexShader, geometryShader))
     {
       defines += "#define PENUMBRA_VARYING\n";
     }
@@ -502,10 +524,10 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   for (std::size_t i = 0; i < shown.CountReceivers(); ++i)
   {
     const vtkBakedProp::Entry& entry = shown.Baked->GetEntries()[i];
-    const glm::dmat4 map = fromView ? penumbra::MakeViewMap(entry.Base, toView)
-                                    : penumbra::MakeScreenMap(entry.Base, toView, toClip, viewport);
-    uniforms.Add(
-      map, entry.Settings.Settings, radiance->GetRegions()[i], glm::vec2(radiance->GetSize()));
+    penumbra::Receiver receiver = entry.Settings;
+    receiver.Base = entry.Base;
+    uniforms.Add(MakeMap(receiver, fromView, toView, toClip, viewport), receiver.Settings,
+      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()));
   }
   if (shown.Factors)
   {

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSoftShadowPass
- * @brief a render pass that shows soft shadows of area lights on planar receivers
+ * @brief a render pass that shows soft shadows of area lights on receivers
  *
  * The pass finds the area lights (actors of vtkAreaLightSource's output), the receivers (actors of
  * vtkShadowReceiver's output) and the occluders (every other visible surface) among the renderer's
  * props, bakes the receivers' radiance textures (vtkRadianceBaker), and lets its delegate draw the
  * scene with shaders that read them (Heckbert and Herf 1997). A bake is only redone when something
  * that it depends on has changed; the camera is not among that.
+ *
+ * Receivers are planar, or have a plane that stands for them: then each point shows what was baked
+ * where it is projected to, onto the plane, from the lights' centre
+ * (vtkShadowReceiver::ProxyPlane). RADIANCE is the plane's there, its cosine too.
  *
  * Receivers keep their colours, scalar colouring, opacity and picking. Everything else is drawn by
  * the delegate as it would be without this pass.

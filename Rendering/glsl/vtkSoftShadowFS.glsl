@@ -7,6 +7,9 @@
 // of lit actors know that as vertexVC. PENUMBRA_POSITION is then (vertexVC, 1), PENUMBRA_VIEW is defined, and so is
 // PENUMBRA_VARYING if the vertex shader itself can hand on (u, v), which is cheapest. Otherwise the position is
 // gl_FragCoord, from which the map is projective: it depends on no other shader.
+//
+// Where a plane stands for a surface (PENUMBRA_PROXY is defined then, if positions are of the view), the map also
+// projects the fragment onto that plane, from the lights' centre (H&H 1997, figure 5).
 
 uniform sampler2D penumbraTexture; // for shadows, vtkShadowFactors; for radiance, the irradiance over pi
 uniform float penumbraScale;       // of the factors
@@ -25,7 +28,7 @@ in vec2 penumbraUVVSOutput;
 
 vec4 penumbraTransform(mat4 map, vec4 position)
 {
-#ifdef PENUMBRA_VIEW
+#if defined(PENUMBRA_VIEW) && !defined(PENUMBRA_PROXY)
   return vec4(mat4x3(map) * position, 1.0); // q = 1: the compiler drops the divisions
 #else
   return map * position;

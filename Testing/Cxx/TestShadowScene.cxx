@@ -468,6 +468,32 @@ TEST(ReceiverSettings, NameBadChoicesAndColours)
   });
 }
 
+// What a proxy plane is given by counts only where one is.
+TEST(ReceiverSettings, NameBadProxyPlanes)
+{
+  using S = ReceiverSettings;
+  const auto given = [](S& s)
+  {
+    s.ProxyPlane = true;
+    s.ProxyMode = penumbra::ProxyPlaneMode::Given;
+  };
+  const std::string direction = "a direction: finite, and not (0, 0, 0)";
+  ExpectProblems<S>({
+    { [&](S& s) { given(s), s.ProxyNormal = glm::dvec3(0.0); }, "ProxyNormal", "(0, 0, 0)",
+      direction },
+    { [&](S& s) { given(s), s.ProxyNormal.y = NaN; }, "ProxyNormal", "nan", direction },
+    { [&](S& s) { given(s), s.ProxyNormal.z = Infinity; }, "ProxyNormal", "inf", direction },
+    { [&](S& s) { given(s), s.ProxyOrigin.x = NaN; }, "ProxyOrigin", "nan", "finite coordinates" },
+    { [&](S& s) { given(s), s.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(2); },
+      "ProxyPlaneMode", "2", "0 (Best Fit) or 1 (Given)" },
+  });
+  ReceiverSettings unused;
+  given(unused);
+  unused.ProxyPlane = false;
+  unused.ProxyNormal = glm::dvec3(NaN);
+  EXPECT_EQ(unused.FindProblem(), "");
+}
+
 TEST(ReceiverSettings, SampleCountIsTheProductWithinItsLimits)
 {
   ReceiverSettings settings;
