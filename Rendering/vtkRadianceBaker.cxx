@@ -59,6 +59,16 @@ std::vector<penumbra::RegisteredProjection> MakeProjections(
   return projections;
 }
 
+/// The receiver with settings that take one sample of each light.
+penumbra::Receiver MakeDraft(penumbra::Receiver receiver)
+{
+  receiver.Settings.LightSamples = 1;
+  receiver.Settings.SampleMultiplier = 1.0;
+  receiver.Settings.SolidAnglePerSample = 0.0;
+  receiver.Settings.ErrorTolerance = 0.0;
+  return receiver;
+}
+
 /// The root mean square of the standard error and the peak of the mean of radiance's components.
 glm::dvec2 FindErrorAndPeak(
   const vtkRadianceTexture::Texels& texels, const penumbra::ReceiverSettings& settings)
@@ -138,7 +148,8 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowSc
   std::size_t region)
 {
   const double start = vtkTimerLog::GetUniversalTime();
-  const penumbra::Receiver& r = scene.Receivers[receiver];
+  const penumbra::Receiver r =
+    this->Draft ? MakeDraft(scene.Receivers[receiver]) : scene.Receivers[receiver];
   const penumbra::ReceiverFrame frame = scene.MakeFrame(r);
   const penumbra::ReceiverSettings& settings = r.Settings;
   const vtkRadianceTexture::Region place = texture->GetRegions()[region];
@@ -351,5 +362,6 @@ bool vtkRadianceBaker::RefineLight(
 void vtkRadianceBaker::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Draft: " << this->Draft << "\n";
   os << indent << "MaximumMaskBytes: " << this->MaximumMaskBytes << "\n";
 }

@@ -47,6 +47,15 @@ public:
   std::size_t GetMaximumMaskBytes() const { return this->MaximumMaskBytes; }
   ///@}
 
+  ///@{
+  /**
+   * Whether every light gets one sample, whatever the receivers ask for. Default is off.
+   */
+  vtkSetMacro(Draft, bool);
+  vtkGetMacro(Draft, bool);
+  vtkBooleanMacro(Draft, bool);
+  ///@}
+
   /// What was done for one receiver.
   struct Report
   {
@@ -97,6 +106,7 @@ private:
   bool DrawMasks(Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use);
   vtkRadianceResolver::Options GetOptions(const Job& job) const;
 
+  bool Draft = false;
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
   vtkNew<vtkOccluderGeometry> Occluders;
   vtkNew<vtkVisibilityMask> Masks;

@@ -64,6 +64,13 @@ bool IsDrawnAsSurface(vtkActor* actor)
     actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
 }
 
+/// The mapper of an actor's data themselves: actors with levels of detail answer GetMapper() by the
+/// one that they draw with now.
+vtkMapper* GetFullMapper(vtkActor* actor)
+{
+  return actor->vtkActor::GetMapper();
+}
+
 /// What a polygonal mapper draws, up to date; nullptr for other mappers.
 vtkDataObject* GetMappedData(vtkMapper* mapper)
 {
@@ -104,13 +111,13 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       vtkAssemblyNode* node = path->GetLastNode();
       auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
-      if (actor && actor->GetVisibility() && actor->GetMapper() && !IsMark(actor))
+      vtkMapper* mapper = actor ? GetFullMapper(actor) : nullptr;
+      if (mapper && actor->GetVisibility() && !IsMark(actor))
       {
-        if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
+        if (vtkDataObject* data = GetMappedData(mapper))
         {
           visit(prop,
-            Part{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data,
-              GetAttributes(actor->GetMapper()) });
+            Part{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data, GetAttributes(mapper) });
         }
       }
     }

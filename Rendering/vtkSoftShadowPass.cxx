@@ -6,6 +6,7 @@
 
 #include "ScreenMap.h"
 #include "vtkActor.h"
+#include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -28,6 +29,7 @@
 #include "vtkSoftShadowFS.h"
 #include "vtkTextureObject.h"
 #include "vtkTextureUnitManager.h"
+#include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -49,11 +51,12 @@ struct ShownProp
 {
   vtkWeakPointer<vtkProp> Prop;
   std::vector<std::size_t> Receivers; ///< indices into the scene's
-  vtkSmartPointer<vtkRadianceTexture> Texture;
+  vtkSmartPointer<vtkRadianceTexture> Texture = nullptr;
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
   bool IsMatte = false;
+  bool IsDraft = false; ///< baked with one sample a light
 
   std::size_t GetBytes() const
   {
@@ -180,6 +183,9 @@ struct ReceiverUniforms
 
 struct vtkSoftShadowPass::Internals
 {
+  /// Bakes all receivers of a prop into a new texture, as a draft or not; false if it cannot be.
+  bool Bake(vtkRadianceBaker* baker, ShownProp& shown);
+
   vtkNew<vtkShadowSceneCollector> Collector;
   std::vector<ShownProp> Shown;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
@@ -189,6 +195,20 @@ struct vtkSoftShadowPass::Internals
   vtkRenderer* Renderer = nullptr;
   int TextureUnit = -1;
 };
+
+bool vtkSoftShadowPass::Internals::Bake(vtkRadianceBaker* baker, ShownProp& shown)
+{
+  baker->SetDraft(shown.IsDraft);
+  const auto texture = vtkSmartPointer<vtkRadianceTexture>::New();
+  if (baker->Bake(this->Collector->GetScene(), shown.Receivers, this->Window, texture).empty())
+  {
+    return false;
+  }
+  texture->ReleaseVariance();
+  shown.Texture = texture;
+  shown.HasShownTexture = false;
+  return true;
+}
 
 vtkSoftShadowPass::vtkSoftShadowPass()
   : Impl(new Internals)
@@ -281,14 +301,15 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
 {
   const bool isNewWindow = window != this->Impl->Window ||
     window->GetContextCreationTime() > this->Impl->BakeTime.GetMTime();
-  if (this->KeepBakes && !isNewWindow && !this->Impl->Shown.empty())
-  {
-    return;
-  }
   if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow)
   {
     this->BakeReceivers(window);
   }
+  else if (this->BakeMode != DRAFT)
+  {
+    this->FinishDrafts();
+  }
+  this->ReportProgress();
 }
 
 void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
@@ -313,12 +334,54 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
                                      << maximum << ". Divide it. It is drawn without shadows.");
       continue;
     }
-    ShownProp shown{ prop, receivers, vtkSmartPointer<vtkRadianceTexture>::New() };
-    if (!this->Baker->Bake(scene, receivers, window, shown.Texture).empty())
+    ShownProp shown{ prop, receivers };
+    shown.IsDraft = this->BakeMode != COMPLETE;
+    if (this->Impl->Bake(this->Baker, shown))
     {
-      shown.Texture->ReleaseVariance();
       this->Impl->Shown.push_back(shown);
     }
+  }
+}
+
+void vtkSoftShadowPass::FinishDrafts()
+{
+  const double start = vtkTimerLog::GetUniversalTime();
+  bool hasBaked = false;
+  for (ShownProp& shown : this->Impl->Shown)
+  {
+    if (!shown.IsDraft)
+    {
+      continue;
+    }
+    if (this->BakeMode == PROGRESSIVE && hasBaked &&
+      vtkTimerLog::GetUniversalTime() - start > this->BatchSeconds)
+    {
+      break;
+    }
+    // If it fails, the draft is all that can be had.
+    shown.IsDraft = false;
+    this->Impl->Bake(this->Baker, shown);
+    hasBaked = true;
+  }
+  this->BakeCount += hasBaked ? 1 : 0;
+}
+
+double vtkSoftShadowPass::GetBakeProgress() const
+{
+  const std::vector<ShownProp>& shown = this->Impl->Shown;
+  const auto drafts =
+    std::count_if(shown.begin(), shown.end(), [](const ShownProp& prop) { return prop.IsDraft; });
+  return shown.empty() ? 1.0
+                       : 1.0 - static_cast<double>(drafts) / static_cast<double>(shown.size());
+}
+
+void vtkSoftShadowPass::ReportProgress()
+{
+  double progress = this->GetBakeProgress();
+  if (progress != this->ReportedProgress)
+  {
+    this->ReportedProgress = progress;
+    this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
   }
 }
 
@@ -521,7 +584,9 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DelegatePass: " << this->DelegatePass << "\n";
   os << indent << "Shading: " << this->Shading << "\n";
   os << indent << "OnlyDesignated: " << this->OnlyDesignated << "\n";
-  os << indent << "KeepBakes: " << this->KeepBakes << "\n";
+  os << indent << "BakeMode: " << this->BakeMode << "\n";
+  os << indent << "BatchSeconds: " << this->BatchSeconds << "\n";
+  os << indent << "BakeProgress: " << this->GetBakeProgress() << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSoftShadowViewPass.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCommand.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPVSession.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+
+vtkStandardNewMacro(vtkSoftShadowViewPass);
+
+namespace
+{
+
+/// vtkPVRenderView asks its window for 5 frames a second before an interactive frame, and for 0.002
+/// before a still one; ParaView itself tells them apart at 1 (pqInteractiveViewLink).
+constexpr double SlowestInteractiveRate = 1.0;
+
+/// Between two batches: what the user has done since, Qt handles before it.
+constexpr unsigned long MillisecondsBetweenBatches = 10;
+
+/// What vtkPVView tells only its subclasses. A pointer to the member, which a subclass may form,
+/// can be applied to any view.
+struct ViewParts : public vtkPVRenderView
+{
+  static bool IsCapturing(vtkPVRenderView* view)
+  {
+    return (view->*(&ViewParts::GetInCaptureScreenshot))();
+  }
+  static vtkPVSession* GetSessionOf(vtkPVRenderView* view)
+  {
+    return (view->*(&ViewParts::GetSession))();
+  }
+};
+
+} // namespace
+
+vtkSoftShadowViewPass::vtkSoftShadowViewPass() = default;
+vtkSoftShadowViewPass::~vtkSoftShadowViewPass() = default;
+
+void vtkSoftShadowViewPass::PrepareFrame(
+  vtkPVRenderView* view, vtkAlgorithm* representation, bool progressiveRefinement)
+{
+  this->View = view;
+  this->Representation = representation;
+  this->MayRefine = progressiveRefinement && (this->MayRefine || !this->IsPrepared);
+  this->IsPrepared = true;
+  this->SetBakeMode(this->ChooseBakeMode());
+}
+
+int vtkSoftShadowViewPass::ChooseBakeMode() const
+{
+  if (!this->MayRefine || ViewParts::IsCapturing(this->View))
+  {
+    return COMPLETE;
+  }
+  if (this->View->GetRenderWindow()->GetDesiredUpdateRate() >= SlowestInteractiveRate)
+  {
+    return DRAFT;
+  }
+  return this->GetTimerSource() ? PROGRESSIVE : COMPLETE;
+}
+
+vtkRenderWindowInteractor* vtkSoftShadowViewPass::GetTimerSource() const
+{
+  // Only ParaView's window asks for such render windows. Elsewhere, nobody may be there to see a
+  // second frame, or no loop of events runs to draw one.
+  return this->View && vtkPVView::GetUseGenericOpenGLRenderWindow() ? this->View->GetInteractor()
+                                                                    : nullptr;
+}
+
+void vtkSoftShadowViewPass::Render(const vtkRenderState* s)
+{
+  this->Superclass::Render(s);
+  this->IsPrepared = false;
+  if (this->GetBakeMode() == PROGRESSIVE && this->GetBakeProgress() < 1.0)
+  {
+    this->StartTimer();
+  }
+}
+
+void vtkSoftShadowViewPass::StartTimer()
+{
+  vtkRenderWindowInteractor* interactor = this->GetTimerSource();
+  if (this->Timer || !interactor)
+  {
+    return;
+  }
+  if (interactor != this->Interactor)
+  {
+    this->Interactor = interactor;
+    interactor->AddObserver(vtkCommand::TimerEvent, this, &vtkSoftShadowViewPass::OnTimer);
+  }
+  this->Timer = interactor->CreateOneShotTimer(MillisecondsBetweenBatches);
+}
+
+void vtkSoftShadowViewPass::OnTimer(vtkObject* caller, unsigned long /*event*/, void* timer)
+{
+  if (caller != this->Interactor || !this->Timer || *static_cast<int*>(timer) != this->Timer)
+  {
+    return;
+  }
+  this->Timer = 0;
+  if (!this->View || this->GetBakeMode() != PROGRESSIVE)
+  {
+    return; // a still frame will come after the interaction
+  }
+  vtkPVSession* session = ViewParts::GetSessionOf(this->View);
+  if (session->GetPendingProgress())
+  {
+    this->StartTimer();
+    return;
+  }
+  // Progress is told between frames: to show it, Qt takes the OpenGL context.
+  session->PrepareProgress();
+  if (this->Representation)
+  {
+    this->Representation->SetProgressText("Soft shadows");
+    this->Representation->UpdateProgress(this->GetBakeProgress());
+  }
+  this->View->StillRender();
+  session->CleanupPendingProgress();
+}
+
+void vtkSoftShadowViewPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "View: " << this->View << "\n";
+  os << indent << "MayRefine: " << this->MayRefine << "\n";
+  os << indent << "Timer: " << this->Timer << "\n";
+}
