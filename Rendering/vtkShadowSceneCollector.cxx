@@ -94,9 +94,11 @@ bool IsMark(vtkActor* actor)
 }
 
 /// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
+/// False if one of them is drawn by a level of detail while its data themselves are not at hand.
 template <typename Visitor>
-void VisitParts(vtkRenderer* renderer, Visitor&& visit)
+bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
 {
+  bool isAllAtHand = true;
   vtkCollectionSimpleIterator it;
   vtkPropCollection* props = renderer->GetViewProps();
   props->InitTraversal(it);
@@ -119,9 +121,14 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
           visit(prop,
             Part{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data, GetAttributes(mapper) });
         }
+        else if (mapper != actor->GetMapper() && GetMappedData(actor->GetMapper()))
+        {
+          isAllAtHand = false;
+        }
       }
     }
   }
+  return isAllAtHand;
 }
 
 /// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
@@ -202,10 +209,10 @@ const penumbra::ShadowScene& vtkShadowSceneCollector::GetScene() const
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
   std::vector<std::uint64_t> signature;
-  VisitParts(renderer,
+  const bool isAllAtHand = VisitParts(renderer,
     [&](vtkProp* prop, const Part& part)
     { AppendPart(signature, part, MayReceive(prop, part, onlyDesignated)); });
-  if (signature == this->Signature)
+  if (signature == this->Signature || (!isAllAtHand && !this->Signature.empty()))
   {
     return false;
   }
