@@ -19,6 +19,10 @@ namespace
 /// before a still one; ParaView itself tells them apart at 1 (pqInteractiveViewLink).
 constexpr double SlowestInteractiveRate = 1.0;
 
+/// All rests when no frame has been asked for in this time: while something is dragged, or an
+/// animation plays, they come faster.
+constexpr unsigned long MillisecondsToRest = 100;
+
 /// Between two batches: what the user has done since, Qt handles before it.
 constexpr unsigned long MillisecondsBetweenBatches = 10;
 
@@ -48,20 +52,17 @@ void vtkSoftShadowViewPass::PrepareFrame(
   this->Representation = representation;
   this->MayRefine = progressiveRefinement && (this->MayRefine || !this->IsPrepared);
   this->IsPrepared = true;
-  this->SetBakeMode(this->ChooseBakeMode());
+  this->ChooseBakeMode();
 }
 
-int vtkSoftShadowViewPass::ChooseBakeMode() const
+void vtkSoftShadowViewPass::ChooseBakeMode()
 {
-  if (!this->MayRefine || ViewParts::IsCapturing(this->View))
-  {
-    return COMPLETE;
-  }
-  if (this->View->GetRenderWindow()->GetDesiredUpdateRate() >= SlowestInteractiveRate)
-  {
-    return DRAFT;
-  }
-  return this->GetTimerSource() ? PROGRESSIVE : COMPLETE;
+  const bool isStill =
+    this->View->GetRenderWindow()->GetDesiredUpdateRate() < SlowestInteractiveRate;
+  const bool isComplete =
+    !this->MayRefine || ViewParts::IsCapturing(this->View) || (isStill && !this->GetTimerSource());
+  this->GoesOn = isStill && !isComplete;
+  this->SetBakeMode(isComplete ? COMPLETE : this->IsBatch ? PROGRESSIVE : DRAFT);
 }
 
 vtkRenderWindowInteractor* vtkSoftShadowViewPass::GetTimerSource() const
@@ -76,7 +77,7 @@ void vtkSoftShadowViewPass::Render(const vtkRenderState* s)
 {
   this->Superclass::Render(s);
   this->IsPrepared = false;
-  if (this->GetBakeMode() == PROGRESSIVE && this->GetBakeProgress() < 1.0)
+  if (this->GoesOn && this->GetBakeProgress() < 1.0)
   {
     this->StartTimer();
   }
@@ -85,7 +86,7 @@ void vtkSoftShadowViewPass::Render(const vtkRenderState* s)
 void vtkSoftShadowViewPass::StartTimer()
 {
   vtkRenderWindowInteractor* interactor = this->GetTimerSource();
-  if (this->Timer || !interactor)
+  if (!interactor)
   {
     return;
   }
@@ -94,7 +95,12 @@ void vtkSoftShadowViewPass::StartTimer()
     this->Interactor = interactor;
     interactor->AddObserver(vtkCommand::TimerEvent, this, &vtkSoftShadowViewPass::OnTimer);
   }
-  this->Timer = interactor->CreateOneShotTimer(MillisecondsBetweenBatches);
+  else if (this->Timer)
+  {
+    interactor->DestroyTimer(this->Timer);
+  }
+  this->Timer =
+    interactor->CreateOneShotTimer(this->IsBatch ? MillisecondsBetweenBatches : MillisecondsToRest);
 }
 
 void vtkSoftShadowViewPass::OnTimer(vtkObject* caller, unsigned long /*event*/, void* timer)
@@ -104,7 +110,7 @@ void vtkSoftShadowViewPass::OnTimer(vtkObject* caller, unsigned long /*event*/, 
     return;
   }
   this->Timer = 0;
-  if (!this->View || this->GetBakeMode() != PROGRESSIVE)
+  if (!this->View || !this->GoesOn)
   {
     return; // a still frame will come after the interaction
   }
@@ -121,7 +127,9 @@ void vtkSoftShadowViewPass::OnTimer(vtkObject* caller, unsigned long /*event*/, 
     this->Representation->SetProgressText("Soft shadows");
     this->Representation->UpdateProgress(this->GetBakeProgress());
   }
+  this->IsBatch = true;
   this->View->StillRender();
+  this->IsBatch = false;
   session->CleanupPendingProgress();
 }
 

@@ -8,8 +8,8 @@
  * |---|---|
  * | for a screenshot or a film, or with ProgressiveRefinement off | all |
  * | interactive | drafts |
- * | still, in ParaView's window | drafts; then timers go on, a batch at a time, until all is done |
- * | still, in scripts and on servers | all |
+ * | still, in ParaView's window | drafts; then timers draw frames with a batch each, until all is
+ * done | | still, in scripts and on servers | all |
  *
  * The timers are those of the view's interactor, so that whatever the user does comes between two
  * batches. They rest while the view is interacted with; the still frame after that goes on. Their
@@ -50,8 +50,9 @@ private:
   vtkSoftShadowViewPass(const vtkSoftShadowViewPass&) = delete;
   void operator=(const vtkSoftShadowViewPass&) = delete;
 
-  int ChooseBakeMode() const;
+  void ChooseBakeMode();
   vtkRenderWindowInteractor* GetTimerSource() const;
+  /// Anew, if one runs already: batches begin when all rests.
   void StartTimer();
   void OnTimer(vtkObject* caller, unsigned long event, void* timer);
 
@@ -59,8 +60,10 @@ private:
   vtkWeakPointer<vtkAlgorithm> Representation;          ///< speaks for all receivers' progress
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor; ///< whose timers are observed
   bool IsPrepared = false;
-  bool MayRefine = true;
-  int Timer = 0; ///< 0 if none runs
+  bool MayRefine = true; ///< all receivers let it
+  bool GoesOn = false;   ///< once the frame is drawn, by a timer
+  bool IsBatch = false;  ///< the frame is drawn for a timer
+  int Timer = 0;         ///< 0 if none runs
 };
 
 #endif
