@@ -7,8 +7,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRadianceTexture.h"
+#include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkBakedProp);
 
@@ -59,6 +61,43 @@ penumbra::TexelRectangle Coarsen(
   return penumbra::TexelRectangle{ low, high }.Intersection(penumbra::WholeRectangle(texels));
 }
 
+/// The receiver's texels that a change concerns.
+penumbra::TexelRectangle FindRectangle(
+  const vtkBakedProp::Entry& entry, const penumbra::BakeChange& change)
+{
+  const glm::ivec2 size = GetRegionSize(entry);
+  if (entry.Vertices > 0 || entry.Settings.Settings.ErrorTolerance > 0.0)
+  {
+    return change.Resolved.IsEmpty() ? penumbra::TexelRectangle() : penumbra::WholeRectangle(size);
+  }
+  return Coarsen(change.Resolved, entry.Plan.Supersampling, size);
+}
+
+/// Whether more samples would change anything.
+bool HasMoreSamples(const vtkBakedProp::Entry& entry)
+{
+  return std::any_of(entry.Plan.Pairs.begin(), entry.Plan.Pairs.end(),
+    [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
+}
+
+/// Takes a tile of about side^2 texels off a rectangle.
+penumbra::TexelRectangle TakeTile(penumbra::TexelRectangle& rectangle, int side)
+{
+  const glm::ivec2 size = rectangle.GetSize();
+  penumbra::TexelRectangle tile = rectangle;
+  if (rectangle.GetArea() <= static_cast<double>(side) * side)
+  {
+    rectangle = {};
+    return tile;
+  }
+  // Off the longer side: what is left stays a rectangle.
+  const int axis = size.x > size.y ? 0 : 1;
+  const int thickness = side * side / size[1 - axis];
+  tile.High[axis] = std::min(tile.Low[axis] + std::max(thickness, 1), tile.High[axis]);
+  rectangle.Low[axis] = tile.High[axis];
+  return tile;
+}
+
 } // namespace
 
 vtkBakedProp::vtkBakedProp() = default;
@@ -67,14 +106,14 @@ vtkBakedProp::~vtkBakedProp() = default;
 vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   const penumbra::ShadowScene& scene, const std::vector<std::size_t>& receivers,
   const std::vector<penumbra::ReceiverPlan>& plans, vtkOpenGLRenderWindow* window,
-  bool showsRadiance)
+  bool showsRadiance, bool draft)
 {
   std::vector<Entry> entries;
   bool hasShadows = false;
   for (const std::size_t i : receivers)
   {
     const penumbra::Receiver& receiver = scene.Receivers[i];
-    Entry entry{ i, scene.Surfaces[receiver.Surface], receiver, plans[i], receiver.Base, 0, {},
+    Entry entry{ i, scene.Surfaces[receiver.Surface], receiver, plans[i], receiver.Base, 0, {}, {},
       {} };
     const bool isUnshadowed = penumbra::IsUnshadowed(entry.Plan);
     hasShadows = hasShadows || !isUnshadowed;
@@ -92,9 +131,12 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
     this->Entries = std::move(entries);
     return wasTextured ? Outcome::Baked : Outcome::Unchanged;
   }
-  return this->IsSameLayout(entries, window)
-    ? this->BakeChanges(baker, std::move(entries))
-    : (this->Window = window, this->BakeAll(baker, std::move(entries)));
+  if (this->IsSameLayout(entries, window))
+  {
+    return this->BakeChanges(baker, std::move(entries), draft);
+  }
+  this->Window = window;
+  return this->BakeAll(baker, std::move(entries), draft);
 }
 
 bool vtkBakedProp::IsSameLayout(
@@ -105,7 +147,8 @@ bool vtkBakedProp::IsSameLayout(
       entries.begin(), entries.end(), this->Entries.begin(), this->Entries.end(), IsSameReceiver);
 }
 
-vtkBakedProp::Outcome vtkBakedProp::BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries)
+vtkBakedProp::Outcome vtkBakedProp::BakeAll(
+  vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft)
 {
   this->Texture->ReleaseGraphicsResources();
   this->Entries = std::move(entries);
@@ -119,7 +162,8 @@ vtkBakedProp::Outcome vtkBakedProp::BakeAll(vtkRadianceBaker* baker, std::vector
   this->IsTextured = this->Texture->Allocate(this->Window, sizes, withVariance);
   for (std::size_t i = 0; i < this->Entries.size() && this->IsTextured; ++i)
   {
-    this->IsTextured = this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(sizes[i]));
+    this->IsTextured =
+      this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(sizes[i]), draft);
   }
   if (!this->IsTextured)
   {
@@ -129,7 +173,8 @@ vtkBakedProp::Outcome vtkBakedProp::BakeAll(vtkRadianceBaker* baker, std::vector
   return Outcome::Baked;
 }
 
-vtkBakedProp::Outcome vtkBakedProp::BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries)
+vtkBakedProp::Outcome vtkBakedProp::BakeChanges(
+  vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft)
 {
   Outcome outcome = Outcome::Unchanged;
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -151,18 +196,16 @@ vtkBakedProp::Outcome vtkBakedProp::BakeChanges(vtkRadianceBaker* baker, std::ve
         now.Kept[l].Stale = now.Kept[l].Stale.Union(light.Stale);
       }
     }
-    const glm::ivec2 size = GetRegionSize(now);
-    const bool isWhole = now.Vertices > 0 || now.Settings.Settings.ErrorTolerance > 0.0;
-    const penumbra::TexelRectangle rectangle = isWhole
-      ? penumbra::WholeRectangle(size)
-      : Coarsen(change.Resolved, now.Plan.Supersampling, size);
-    if (change.Resolved.IsEmpty())
+    now.Base = before.Base;
+    now.Draft = before.Draft;
+    penumbra::TexelRectangle rectangle = FindRectangle(now, change);
+    rectangle = draft ? rectangle : rectangle.Union(now.Draft);
+    if (rectangle.IsEmpty())
     {
-      now.Base = before.Base;
       now.Report = before.Report;
       continue;
     }
-    if (!this->Bake(baker, now, i, rectangle))
+    if (!this->Bake(baker, now, i, rectangle, draft))
     {
       this->ReleaseGraphicsResources();
       return Outcome::Failed;
@@ -174,7 +217,7 @@ vtkBakedProp::Outcome vtkBakedProp::BakeChanges(vtkRadianceBaker* baker, std::ve
 }
 
 bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
-  const penumbra::TexelRectangle& rectangle)
+  const penumbra::TexelRectangle& rectangle, bool draft)
 {
   vtkRadianceBaker::Part part;
   part.Rectangle = rectangle;
@@ -186,15 +229,95 @@ bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t regio
       baker->BakePart(vertices, entry.Receiver, this->Window, this->Texture, region, part);
     return entry.Report.IsComplete;
   }
-  if (entry.Settings.Settings.ErrorTolerance <= 0.0 && entry.Plan.Supersampling == 1)
+  if (draft)
   {
-    entry.Kept.resize(entry.Plan.Lights.size());
-    part.Kept = &entry.Kept;
-    LimitBytes(entry, part);
+    part.MostSamples = 1;
+    entry.Draft = HasMoreSamples(entry) ? entry.Draft.Union(rectangle) : entry.Draft;
+  }
+  else
+  {
+    entry.Draft = rectangle.Holds(entry.Draft) ? penumbra::TexelRectangle() : entry.Draft;
+    if (entry.Settings.Settings.ErrorTolerance <= 0.0 && entry.Plan.Supersampling == 1)
+    {
+      entry.Kept.resize(entry.Plan.Lights.size());
+      part.Kept = &entry.Kept;
+      LimitBytes(entry, part);
+    }
   }
   entry.Report =
     baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
   return entry.Report.IsComplete;
+}
+
+vtkBakedProp::Outcome vtkBakedProp::Finish(vtkRadianceBaker* baker, double seconds)
+{
+  const double until = vtkTimerLog::GetUniversalTime() + seconds;
+  Outcome outcome = Outcome::Unchanged;
+  for (std::size_t i = 0; i < this->Entries.size(); ++i)
+  {
+    Entry& entry = this->Entries[i];
+    if (entry.Draft.IsEmpty() ||
+      (outcome == Outcome::Baked && seconds > 0.0 && vtkTimerLog::GetUniversalTime() > until))
+    {
+      continue;
+    }
+    const bool isDone = seconds > 0.0 && entry.Settings.Settings.ErrorTolerance <= 0.0
+      ? this->FinishTiles(baker, entry, i, until)
+      : this->Bake(baker, entry, i, entry.Draft, false);
+    if (!isDone)
+    {
+      this->ReleaseGraphicsResources();
+      return Outcome::Failed;
+    }
+    outcome = Outcome::Baked;
+  }
+  return outcome;
+}
+
+bool vtkBakedProp::FinishTiles(
+  vtkRadianceBaker* baker, Entry& entry, std::size_t region, double until)
+{
+  constexpr int SmallestTile = 4, LargestTile = 4096;
+  constexpr double ShortestSeconds = 1e-4;
+  double now = vtkTimerLog::GetUniversalTime();
+  do
+  {
+    vtkRadianceBaker::Part part;
+    part.Rectangle = TakeTile(entry.Draft, this->TileSide);
+    entry.Report =
+      baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
+    if (!entry.Report.IsComplete)
+    {
+      return false;
+    }
+    // The next tile is to take half of what is left; where nothing is, a batch starts with it.
+    const double taken = std::max(vtkTimerLog::GetUniversalTime() - now, ShortestSeconds);
+    now = vtkTimerLog::GetUniversalTime();
+    const double growth = std::sqrt(0.5 * std::max(until - now, 0.5 * taken) / taken);
+    this->TileSide = std::clamp(
+      static_cast<int>(this->TileSide * std::clamp(growth, 0.25, 4.0)), SmallestTile, LargestTile);
+  } while (!entry.Draft.IsEmpty() && now < until);
+  return true;
+}
+
+double vtkBakedProp::CountDraftTexels() const
+{
+  double texels = 0.0;
+  for (const Entry& entry : this->Entries)
+  {
+    texels += entry.Draft.GetArea();
+  }
+  return texels;
+}
+
+double vtkBakedProp::CountTexels() const
+{
+  double texels = 0.0;
+  for (const Entry& entry : this->Entries)
+  {
+    texels += penumbra::WholeRectangle(entry.Settings.Texels).GetArea();
+  }
+  return texels;
 }
 
 std::vector<glm::vec4> vtkBakedProp::Download(

@@ -51,10 +51,25 @@ public:
    * @param window must be current
    * @param showsRadiance whether radiance is shown, or shadows alone: without shadows, there is
    * then nothing to bake
+   * @param draft whether what has changed is baked with one sample a light: Finish() does the rest
    */
   Outcome Update(vtkRadianceBaker* baker, const penumbra::ShadowScene& scene,
     const std::vector<std::size_t>& receivers, const std::vector<penumbra::ReceiverPlan>& plans,
-    vtkOpenGLRenderWindow* window, bool showsRadiance);
+    vtkOpenGLRenderWindow* window, bool showsRadiance, bool draft);
+
+  /**
+   * Bake what is a draft with all samples: all of it, or, if `seconds` > 0, tile by tile for about
+   * so long. `baker` has taken up the scene of the last Update(). Tiles change no bit.
+   */
+  Outcome Finish(vtkRadianceBaker* baker, double seconds);
+
+  ///@{
+  /**
+   * The texels that are drafts, and all.
+   */
+  double CountDraftTexels() const;
+  double CountTexels() const;
+  ///@}
 
   /**
    * False if there is nothing to show: no receiver has a shadow, and radiance is not shown.
@@ -72,9 +87,10 @@ public:
     std::size_t Receiver = 0; ///< index into the scene's
     penumbra::SharedSurface Surface;
     penumbra::Receiver Settings;
-    penumbra::ReceiverPlan Plan;  ///< of its texels
-    penumbra::Parallelogram Base; ///< that the texture's region covers
-    int Vertices = 0;             ///< along each edge; 0: it has texels
+    penumbra::ReceiverPlan Plan;    ///< of its texels
+    penumbra::Parallelogram Base;   ///< that the texture's region covers
+    int Vertices = 0;               ///< along each edge; 0: it has texels
+    penumbra::TexelRectangle Draft; ///< the texels that have one sample a light
     std::vector<vtkRadianceBaker::KeptLight> Kept;
     vtkRadianceBaker::Report Report; ///< of its last bake
   };
@@ -107,14 +123,16 @@ private:
 
   bool IsSameLayout(const std::vector<Entry>& entries, vtkOpenGLRenderWindow* window) const;
   bool Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
-    const penumbra::TexelRectangle& rectangle);
-  Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries);
-  Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries);
+    const penumbra::TexelRectangle& rectangle, bool draft);
+  bool FinishTiles(vtkRadianceBaker* baker, Entry& entry, std::size_t region, double until);
+  Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
+  Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkRadianceTexture> Texture;
   std::vector<Entry> Entries;
   bool IsTextured = false;
+  int TileSide = 32; ///< of the next tile: about what fits into a batch
 };
 
 #endif

@@ -67,6 +67,13 @@ bool IsDrawnAsSurface(vtkActor* actor)
     actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
 }
 
+/// The mapper of an actor's data themselves: actors with levels of detail answer GetMapper() by the
+/// one that they draw with now.
+vtkMapper* GetFullMapper(vtkActor* actor)
+{
+  return actor->vtkActor::GetMapper();
+}
+
 /// What a polygonal mapper draws, up to date; nullptr for other mappers.
 vtkDataObject* GetMappedData(vtkMapper* mapper)
 {
@@ -90,9 +97,11 @@ bool IsMark(vtkActor* actor)
 }
 
 /// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
+/// False if one of them is drawn by a level of detail while its data themselves are not at hand.
 template <typename Visitor>
-void VisitParts(vtkRenderer* renderer, Visitor&& visit)
+bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
 {
+  bool isAllAtHand = true;
   vtkCollectionSimpleIterator it;
   vtkPropCollection* props = renderer->GetViewProps();
   props->InitTraversal(it);
@@ -107,17 +116,23 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       vtkAssemblyNode* node = path->GetLastNode();
       auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
-      if (actor && actor->GetVisibility() && actor->GetMapper() && !IsMark(actor))
+      vtkMapper* mapper = actor ? GetFullMapper(actor) : nullptr;
+      if (mapper && actor->GetVisibility() && !IsMark(actor))
       {
-        if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
+        if (vtkDataObject* data = GetMappedData(mapper))
         {
           visit(prop,
-            VisitedPart{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data,
-              GetAttributes(actor->GetMapper()) });
+            VisitedPart{
+              actor, IsDrawnAsSurface(actor), node->GetMatrix(), data, GetAttributes(mapper) });
+        }
+        else if (mapper != actor->GetMapper() && GetMappedData(actor->GetMapper()))
+        {
+          isAllAtHand = false;
         }
       }
     }
   }
+  return isAllAtHand;
 }
 
 /// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
@@ -189,7 +204,7 @@ vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
   std::vector<Part> parts;
-  VisitParts(renderer,
+  const bool isAllAtHand = VisitParts(renderer,
     [&](vtkProp* prop, const VisitedPart& visited)
     {
       Part& part = parts.emplace_back();
@@ -197,7 +212,8 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
       part.Prop = prop;
     });
   if (std::equal(parts.begin(), parts.end(), this->Parts.begin(), this->Parts.end(),
-        [](const Part& a, const Part& b) { return a.Seen == b.Seen; }))
+        [](const Part& a, const Part& b) { return a.Seen == b.Seen; }) ||
+    (!isAllAtHand && !this->Parts.empty()))
   {
     return false;
   }

@@ -43,7 +43,8 @@ public:
   /**
    * Look at the renderer's props. True if something that a bake depends on has changed since the
    * last call (visibility, geometry, block visibility, matrices, settings): then the scene is a new
-   * one. With `onlyDesignated`, only props that carry vtkSoftShadowPass::DESIGNATED() may receive
+   * one. While actors with levels of detail have only coarser data at hand, nothing has changed.
+   * With `onlyDesignated`, only props that carry vtkSoftShadowPass::DESIGNATED() may receive
    * shadows.
    */
   bool Update(vtkRenderer* renderer, bool onlyDesignated);

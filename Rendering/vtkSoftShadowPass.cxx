@@ -8,6 +8,7 @@
 #include "ScreenMap.h"
 #include "vtkActor.h"
 #include "vtkBakedProp.h"
+#include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -30,6 +31,7 @@
 #include "vtkSoftShadowFS.h"
 #include "vtkTextureObject.h"
 #include "vtkTextureUnitManager.h"
+#include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -320,16 +322,12 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
 {
   const bool isNewWindow = window != this->Impl->Window ||
     window->GetContextCreationTime() > this->Impl->BakeTime.GetMTime();
-  if (this->KeepBakes && !isNewWindow && !this->Impl->Shown.empty())
-  {
-    return;
-  }
   // What is shown decides what has to be baked.
   const bool isShadedOtherwise = std::any_of(this->Impl->Shown.begin(), this->Impl->Shown.end(),
     [this](const ShownProp& shown)
     { return shown.Prop && this->GetShadingOf(shown.Prop) != shown.Shading; });
   if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow ||
-    isShadedOtherwise || this->GetMTime() > this->Impl->BakeTime.GetMTime())
+    isShadedOtherwise)
   {
     if (isNewWindow)
     {
@@ -337,6 +335,11 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
     }
     this->BakeReceivers(window);
   }
+  else if (this->BakeMode != DRAFT && this->GetBakeProgress() < 1.0)
+  {
+    this->FinishDrafts();
+  }
+  this->ReportProgress();
 }
 
 void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
@@ -369,8 +372,8 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     }
     ShownProp shown = TakeShown(before, prop);
     const int shading = this->GetShadingOf(prop);
-    const vtkBakedProp::Outcome outcome =
-      shown.Baked->Update(this->Baker, scene, receivers, plans, window, shading == RADIANCE);
+    const vtkBakedProp::Outcome outcome = shown.Baked->Update(this->Baker, scene, receivers, plans,
+      window, shading == RADIANCE, this->BakeMode != COMPLETE);
     if (outcome != vtkBakedProp::Outcome::Unchanged)
     {
       shown.HasShownTexture = false;
@@ -385,6 +388,50 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   state->Pop();
   this->BakeCount += isBaked ? 1 : 0;
   this->Impl->ShaderTime.Modified();
+}
+
+void vtkSoftShadowPass::FinishDrafts()
+{
+  const double start = vtkTimerLog::GetUniversalTime();
+  vtkOpenGLState* state = this->Impl->Window->GetState();
+  state->Push();
+  bool isBaked = false;
+  for (ShownProp& shown : this->Impl->Shown)
+  {
+    constexpr double Shortest = 1e-3;
+    const double left = this->BatchSeconds - (vtkTimerLog::GetUniversalTime() - start);
+    if (shown.Baked->CountDraftTexels() > 0.0 &&
+      (this->BakeMode == COMPLETE || !isBaked || left > 0.0))
+    {
+      shown.Baked->Finish(this->Baker, this->BakeMode == COMPLETE ? 0.0 : std::max(left, Shortest));
+      shown.HasShownTexture = false;
+      isBaked = true;
+    }
+  }
+  this->Baker->ReleaseGraphicsResources();
+  state->Pop();
+  this->BakeCount += isBaked ? 1 : 0;
+}
+
+double vtkSoftShadowPass::GetBakeProgress() const
+{
+  double drafts = 0.0, all = 0.0;
+  for (const ShownProp& shown : this->Impl->Shown)
+  {
+    drafts += shown.Baked->CountDraftTexels();
+    all += shown.Baked->CountTexels();
+  }
+  return all > 0.0 ? 1.0 - drafts / all : 1.0;
+}
+
+void vtkSoftShadowPass::ReportProgress()
+{
+  double progress = this->GetBakeProgress();
+  if (progress != this->ReportedProgress)
+  {
+    this->ReportedProgress = progress;
+    this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
+  }
 }
 
 std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
@@ -614,7 +661,9 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DelegatePass: " << this->DelegatePass << "\n";
   os << indent << "Shading: " << this->Shading << "\n";
   os << indent << "OnlyDesignated: " << this->OnlyDesignated << "\n";
-  os << indent << "KeepBakes: " << this->KeepBakes << "\n";
+  os << indent << "BakeMode: " << this->BakeMode << "\n";
+  os << indent << "BatchSeconds: " << this->BatchSeconds << "\n";
+  os << indent << "BakeProgress: " << this->GetBakeProgress() << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

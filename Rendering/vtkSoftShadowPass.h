@@ -95,15 +95,35 @@ public:
   vtkBooleanMacro(OnlyDesignated, bool);
   ///@}
 
+  /// How much of a bake a frame does.
+  enum BakeModes
+  {
+    COMPLETE = 0,   ///< all of it: every frame is finished
+    DRAFT = 1,      ///< what has changed is baked with one sample a light; what is finished stays
+    PROGRESSIVE = 2 ///< as DRAFT; frames in which nothing has changed go on, for BatchSeconds each
+  };
+
   ///@{
   /**
-   * While on, what has been baked is shown as it is, whatever has changed since: for frames in
-   * which coarser data stand in for the real ones. Default is off.
+   * How much of a bake a frame does. Default is COMPLETE.
    */
-  vtkSetMacro(KeepBakes, bool);
-  vtkGetMacro(KeepBakes, bool);
-  vtkBooleanMacro(KeepBakes, bool);
+  vtkSetClampMacro(BakeMode, int, COMPLETE, PROGRESSIVE);
+  vtkGetMacro(BakeMode, int);
   ///@}
+
+  ///@{
+  /**
+   * About how many seconds a PROGRESSIVE frame spends on baking. Default is 0.1.
+   */
+  vtkSetMacro(BatchSeconds, double);
+  vtkGetMacro(BatchSeconds, double);
+  ///@}
+
+  /**
+   * How much of what is shown is final, from 0 to 1; 1 as well where nothing is to be baked. When a
+   * frame changes it, vtkCommand::ProgressEvent is invoked with it (a double*).
+   */
+  double GetBakeProgress() const;
 
   ///@{
   /**
@@ -173,13 +193,18 @@ private:
   void UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   std::vector<penumbra::ReceiverPlan> PlanReceivers();
   void BakeReceivers(vtkOpenGLRenderWindow* window);
+  /// Bakes what is a draft as it is to be: in a PROGRESSIVE frame, as much as there is time for.
+  void FinishDrafts();
+  void ReportProgress();
   void ChooseShading();
   std::vector<vtkProp*> MarkReceivers();
 
   vtkSmartPointer<vtkRenderPass> DelegatePass;
   int Shading = SHADOW;
   bool OnlyDesignated = false;
-  bool KeepBakes = false;
+  int BakeMode = COMPLETE;
+  double BatchSeconds = 0.1;
+  double ReportedProgress = 1.0;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;
   std::unique_ptr<Internals> Impl;

@@ -7,8 +7,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
-#include "vtkSoftShadowPass.h"
 #include "vtkSoftShadowViewHook.h"
+#include "vtkSoftShadowViewPass.h"
 
 vtkStandardNewMacro(vtkSoftShadowReceiverRepresentation);
 
@@ -27,12 +27,10 @@ int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_RENDER())
   {
     auto* view = vtkPVRenderView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-    vtkSoftShadowPass* pass = view ? vtkSoftShadowViewHook::GetPass(view) : nullptr;
+    vtkSoftShadowViewPass* pass = view ? vtkSoftShadowViewHook::GetPass(view) : nullptr;
     if (pass)
     {
-      // While the camera moves, ParaView may give all mappers decimated data, whose shadows are not
-      // wanted.
-      pass->SetKeepBakes(input->Has(vtkPVRenderView::USE_LOD()) != 0);
+      pass->PrepareFrame(view, this, this->ProgressiveRefinement);
       vtkSoftShadowPass::Designate(this->GetActor(), this->ShadowShading);
     }
   }
@@ -49,4 +47,5 @@ void vtkSoftShadowReceiverRepresentation::PrintSelf(ostream& os, vtkIndent inden
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShadowShading: " << this->ShadowShading << "\n";
+  os << indent << "ProgressiveRefinement: " << this->ProgressiveRefinement << "\n";
 }

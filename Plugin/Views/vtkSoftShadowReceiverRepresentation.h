@@ -30,6 +30,16 @@ public:
   vtkGetMacro(ShadowShading, int);
   ///@}
 
+  ///@{
+  /**
+   * Whether interactive frames, and still ones in ParaView's window, first show shadows with one
+   * sample a light, to be refined when all rests. Default is on.
+   */
+  vtkSetMacro(ProgressiveRefinement, bool);
+  vtkGetMacro(ProgressiveRefinement, bool);
+  vtkBooleanMacro(ProgressiveRefinement, bool);
+  ///@}
+
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
@@ -44,6 +54,7 @@ private:
   void operator=(const vtkSoftShadowReceiverRepresentation&) = delete;
 
   int ShadowShading = 0;
+  bool ProgressiveRefinement = true;
 };
 
 #endif

@@ -7,7 +7,7 @@
 #include "vtkPVDefaultPass.h"
 #include "vtkPVRenderView.h"
 #include "vtkPVSynchronizedRenderer.h"
-#include "vtkSoftShadowPass.h"
+#include "vtkSoftShadowViewPass.h"
 
 vtkStandardNewMacro(vtkSoftShadowViewHook);
 
@@ -26,7 +26,7 @@ struct SynchronizedRenderersOf : public vtkPVRenderView
 
 } // namespace
 
-vtkSoftShadowPass* vtkSoftShadowViewHook::GetPass(vtkPVRenderView* view)
+vtkSoftShadowViewPass* vtkSoftShadowViewHook::GetPass(vtkPVRenderView* view)
 {
   vtkPVSynchronizedRenderer* renderers = SynchronizedRenderersOf::Get(view);
   if (!renderers)
@@ -34,7 +34,7 @@ vtkSoftShadowPass* vtkSoftShadowViewHook::GetPass(vtkPVRenderView* view)
     return nullptr;
   }
   vtkRenderPass* current = renderers->GetRenderPass();
-  if (auto* pass = vtkSoftShadowPass::SafeDownCast(current))
+  if (auto* pass = vtkSoftShadowViewPass::SafeDownCast(current))
   {
     return pass;
   }
@@ -42,7 +42,7 @@ vtkSoftShadowPass* vtkSoftShadowViewHook::GetPass(vtkPVRenderView* view)
   {
     return nullptr; // the ray tracer draws everything, with shadows of its own
   }
-  vtkNew<vtkSoftShadowPass> pass;
+  vtkNew<vtkSoftShadowViewPass> pass;
   pass->OnlyDesignatedOn(); // by the representation, not by the data
   if (current)
   {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSoftShadowViewHook
- * @brief puts a vtkSoftShadowPass into a ParaView render view
+ * @brief puts a vtkSoftShadowViewPass into a ParaView render view
  *
  * The pass becomes the one that draws the geometry in the view's vtkPVSynchronizedRenderer. There
  * it survives what the view puts around it: ambient occlusion, FXAA, tone mapping, selection,
@@ -14,7 +14,7 @@
 #include "vtkObject.h"
 
 class vtkPVRenderView;
-class vtkSoftShadowPass;
+class vtkSoftShadowViewPass;
 
 class vtkSoftShadowViewHook : public vtkObject
 {
@@ -26,7 +26,7 @@ public:
    * The view's pass, which is made if there is none yet. nullptr if the view has no place for one:
    * it draws on another process, or by ray tracing.
    */
-  static vtkSoftShadowPass* GetPass(vtkPVRenderView* view);
+  static vtkSoftShadowViewPass* GetPass(vtkPVRenderView* view);
 
 protected:
   vtkSoftShadowViewHook() = default;

@@ -8,6 +8,7 @@
 #include "vtkAssembly.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkCubeSource.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataGroupFilter.h"
@@ -62,6 +63,18 @@ std::size_t CountDifferences(const PassScene::Pixels& a, const PassScene::Pixels
   }
   return count;
 }
+
+/// Notes the progress that a pass tells.
+class ProgressNote : public vtkCommand
+{
+public:
+  static ProgressNote* New() { return new ProgressNote; }
+  void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* progress) override
+  {
+    this->Told->push_back(*static_cast<double*>(progress));
+  }
+  std::vector<double>* Told = nullptr;
+};
 
 std::vector<float> GetTexels(vtkSoftShadowPass* pass, int receiver)
 {
@@ -156,6 +169,48 @@ TEST(SoftShadowPass, ChangesBake)
   expectBake("settings");
   scene.FloorActor->RotateX(5.0);
   expectBake("receiver's matrix");
+}
+
+TEST(SoftShadowPass, FinishesDraftsWhenNothingChanges)
+{
+  FloorScene scene;
+  vtkNew<vtkShadowReceiver> wall;
+  scene.AddReceiver({ -2, 2, 0 }, { 2, 2, 0 }, { -2, 2, 3 }, wall);
+  scene.Render();
+  const std::vector<float> final = GetTexels(scene.Pass, 0);
+  EXPECT_EQ(scene.Pass->GetBakeProgress(), 1.0);
+  scene.Receiver->SetLightSamples(1);
+  scene.Render();
+  const std::vector<float> draft = GetTexels(scene.Pass, 0);
+  ASSERT_NE(draft, final);
+
+  std::vector<double> told;
+  vtkNew<ProgressNote> note;
+  note->Told = &told;
+  scene.Pass->AddObserver(vtkCommand::ProgressEvent, note);
+  scene.Receiver->SetLightSamples(64);
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::PROGRESSIVE);
+  scene.Pass->SetBatchSeconds(0.0); // as little as there is
+  for (double before = -1.0; before < 1.0; before = scene.Pass->GetBakeProgress())
+  {
+    scene.Render();
+    const std::vector<float> shown = GetTexels(scene.Pass, 0);
+    ASSERT_TRUE(shown == draft || shown == final);
+    ASSERT_GT(scene.Pass->GetBakeProgress(), before);
+    ASSERT_EQ(told.back(), scene.Pass->GetBakeProgress());
+  }
+  EXPECT_EQ(told.front(), 0.0);
+  EXPECT_GT(told.size(), 2u); // the floor, then the wall
+  EXPECT_EQ(GetTexels(scene.Pass, 0), final);
+
+  scene.Sphere->SetRadius(0.4);
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::DRAFT);
+  scene.Render();
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetBakeProgress(), 0.0);
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::COMPLETE);
+  scene.Render();
+  EXPECT_EQ(scene.Pass->GetBakeProgress(), 1.0);
 }
 
 TEST(SoftShadowPass, PropsOutOfSightCastShadows)
