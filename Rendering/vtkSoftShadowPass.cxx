@@ -190,14 +190,15 @@ struct ReceiverUniforms
   std::vector<glm::vec4> Places;
   std::vector<glm::vec3> Ambient, Reflectance;
 
+  /// `inset`: how many texels inside the region's border (u, v) begin and end.
   void Add(const glm::dmat4& map, const penumbra::ReceiverSettings& settings,
-    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize)
+    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize, float inset)
   {
     this->Maps.emplace_back(map);
     this->Ambient.emplace_back(settings.AmbientRadiance);
     this->Reflectance.emplace_back(settings.Reflectance);
-    this->Places.emplace_back(
-      glm::vec2(region.Origin) / textureSize, glm::vec2(region.Size) / textureSize);
+    this->Places.emplace_back((glm::vec2(region.Origin) + inset) / textureSize,
+      (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
   }
 
   void Set(vtkShaderProgram* program, const char* maps)
@@ -572,9 +573,13 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   {
     const vtkBakedProp::Entry& entry = shown.Baked->GetEntries()[i];
     penumbra::Receiver receiver = entry.Settings;
-    receiver.Base = entry.Base;
+    // Alone, it fills its texture, and (u, v) are the texture's; of several, the closest is looked
+    // for, by its own parallelogram.
+    const bool isAlone = shown.CountReceivers() == 1;
+    receiver.Base = isAlone ? entry.Base : receiver.Base;
     uniforms.Add(MakeMap(receiver, fromView, toView, toClip, viewport), receiver.Settings,
-      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()));
+      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()),
+      !isAlone && entry.Vertices > 0 ? 0.5f : 0.0f);
   }
   if (shown.Factors)
   {

@@ -175,6 +175,7 @@ TEST(SoftShadowPass, FinishesDraftsWhenNothingChanges)
 {
   FloorScene scene;
   vtkNew<vtkShadowReceiver> wall;
+  wall->SetTexelSize(4.0 / 64);
   scene.AddReceiver({ -2, 2, 0 }, { 2, 2, 0 }, { -2, 2, 3 }, wall);
   scene.Render();
   const std::vector<float> final = GetTexels(scene.Pass, 0);
@@ -195,19 +196,24 @@ TEST(SoftShadowPass, FinishesDraftsWhenNothingChanges)
   {
     scene.Render();
     const std::vector<float> shown = GetTexels(scene.Pass, 0);
-    ASSERT_TRUE(shown == draft || shown == final);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+    {
+      ASSERT_TRUE(shown[i] == draft[i] || shown[i] == final[i]);
+    }
     ASSERT_GT(scene.Pass->GetBakeProgress(), before);
     ASSERT_EQ(told.back(), scene.Pass->GetBakeProgress());
   }
-  EXPECT_EQ(told.front(), 0.0);
-  EXPECT_GT(told.size(), 2u); // the floor, then the wall
+  EXPECT_LT(told.front(), 1.0);
+  EXPECT_GT(told.size(), 3u); // tiles of the floor, then of the wall
   EXPECT_EQ(GetTexels(scene.Pass, 0), final);
 
   scene.Sphere->SetRadius(0.4);
   scene.Pass->SetBakeMode(vtkSoftShadowPass::DRAFT);
   scene.Render();
+  const double progress = scene.Pass->GetBakeProgress();
+  EXPECT_LT(progress, 1.0); // what the sphere can shade
   scene.Render();
-  EXPECT_EQ(scene.Pass->GetBakeProgress(), 0.0);
+  EXPECT_EQ(scene.Pass->GetBakeProgress(), progress);
   scene.Pass->SetBakeMode(vtkSoftShadowPass::COMPLETE);
   scene.Render();
   EXPECT_EQ(scene.Pass->GetBakeProgress(), 1.0);
