@@ -15,6 +15,7 @@
 #include "vtkRadianceTexture.h"
 #include "vtkTimerLog.h"
 #include "vtkVisibilityMask.h"
+#include "vtkVisibilityShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,6 @@ namespace
 /// The lowest height of a sample, in units of the receiver's size: on the plane itself it would
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
-
-/// The first samples of a light whose error is to be found: fewer say little of it.
-constexpr int FirstBatch = 64;
 
 /// The lights as the receiver sees them: what lies in front of it.
 std::vector<penumbra::Light> ClipLights(
@@ -88,6 +86,14 @@ struct vtkRadianceBaker::Job
   vtkRadianceTexture::Region Region; ///< in Target, of supersampled texels
   Report Result;
 
+  /// How many samples of a light there are after each batch, with ErrorTolerance.
+  std::vector<int> GetBatchEnds() const
+  {
+    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
+    return vtkVisibilityShare::GetBatchEnds(std::min(this->Receiver.Settings.MaximumLightSamples,
+      vtkVisibilityMask::GetMaximumSamples(this->Window)));
+  }
+
   /// A pattern's points for a light.
   std::vector<penumbra::LightSample> TakeSamples(std::size_t light, int count) const
   {
@@ -96,7 +102,6 @@ struct vtkRadianceBaker::Job
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
     std::vector<glm::dvec2> points = pattern.Generate(
       count, static_cast<std::uint32_t>(settings.Seed), this->Lights[light]->GetAspect());
-    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
     points.resize(std::min(
       points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
     return this->Lights[light]->TakeSamples(points);
@@ -185,8 +190,8 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   for (const std::size_t light : job.Scene.GetLightOrder())
   {
     const double solidAngle = job.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    const int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
-                                   : settings.GetSampleCount(solidAngle);
+    const int count =
+      hasTolerance ? job.GetBatchEnds().front() : settings.GetSampleCount(solidAngle);
     if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
       settings.SolidAnglePerSample > 0.0)
     {
@@ -318,31 +323,29 @@ bool vtkRadianceBaker::RefineLight(
   this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *job.Lights[light]));
   this->Occluders->Upload();
   int previous = 0;
-  for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
-       count = std::min(2 * count, settings.MaximumLightSamples))
+  for (const int count : job.GetBatchEnds())
   {
     std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
-    const int total = static_cast<int>(samples.size());
-    if (grows)
-    {
-      samples.erase(samples.begin(), samples.begin() + previous);
-    }
-    if (!this->Resolver->SetSamples(samples, grows ? previous : 0) ||
+    job.Result.LightSamples[light] = static_cast<int>(samples.size());
+    const bool isReady = this->Resolver->SetSamples(samples, previous);
+    // Masks of the new samples, in whole layers.
+    constexpr int Layer = vtkVisibilityMask::SamplesPerLayer;
+    samples.erase(samples.begin(), samples.begin() + previous / Layer * Layer);
+    if (!isReady ||
       !this->DrawMasks(job, samples,
         [&](int firstRow, int lastRow, int maskFirstRow)
         { this->Resolver->CountMasks(this->Masks, maskFirstRow, firstRow, lastRow); }))
     {
       return false;
     }
-    job.Result.LightSamples[light] = total;
     this->Resolver->ResolveCounts(scratch, scratch->GetRegions().front(), false);
     const glm::dvec2 error =
       FindErrorAndPeak(scratch->Download(scratch->GetRegions().front()), settings);
-    if (error.x <= allowed || total >= settings.MaximumLightSamples || total <= previous)
+    if (error.x <= allowed)
     {
       break;
     }
-    previous = total;
+    previous = grows ? count : 0;
   }
   this->Resolver->ResolveCounts(job.Target, job.Region, true);
   return true;

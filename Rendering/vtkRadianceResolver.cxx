@@ -56,7 +56,8 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   bool isReady = this->ClosedForm->Begin(window, frame, seen, texels, this->StripRows);
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady = isReady && this->Share[i]->Begin(window, frame, seen, texels, shareRows);
+    isReady =
+      isReady && this->Share[i]->Begin(window, frame, seen, texels, shareRows, options.InBatches);
   }
   return isReady;
 }
