@@ -4,6 +4,7 @@
 
 #include "vtkOccluderGeometry.h"
 
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLVertexArrayObject.h"
@@ -149,19 +150,28 @@ void vtkOccluderGeometry::AddClipped(
   this->Points.insert(this->Points.end(), polygon.begin(), polygon.end());
 }
 
-void vtkOccluderGeometry::Upload()
+bool vtkOccluderGeometry::Upload()
 {
   this->IndexCount = 3 * this->Selected.size();
   if (this->IndexCount == 0)
   {
-    return;
+    return true;
   }
   std::vector<glm::vec3> vertices(this->Points.size());
   std::transform(this->Points.begin(), this->Points.end(), vertices.begin(),
     [](const glm::dvec3& p) { return glm::vec3(p); });
-  this->Vertices->Upload(vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer);
-  this->Indices->Upload(
-    this->Selected.front().data(), this->IndexCount, vtkOpenGLBufferObject::ElementArrayBuffer);
+  penumbra::ForgetOpenGLErrors();
+  if (!this->Vertices->Upload(
+        vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
+    !this->Indices->Upload(
+      this->Selected.front().data(), this->IndexCount, vtkOpenGLBufferObject::ElementArrayBuffer) ||
+    penumbra::HasOpenGLError())
+  {
+    vtkErrorMacro("OpenGL refused buffers for " << this->Selected.size()
+                                                << " triangles that may cast shadows; use fewer.");
+    return false;
+  }
+  return true;
 }
 
 void vtkOccluderGeometry::Draw(vtkShaderProgram* program, int instances)

@@ -47,9 +47,10 @@ public:
   std::size_t Select(const penumbra::BlockingRegion& region);
 
   /**
-   * Upload the triangles that were selected last. Needs a current OpenGL context.
+   * Upload the triangles that were selected last. Needs a current OpenGL context. False, after
+   * vtkErrorMacro, if OpenGL refuses.
    */
-  void Upload();
+  bool Upload();
 
   /**
    * How many triangles were selected.

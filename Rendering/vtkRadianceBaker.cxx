@@ -4,11 +4,11 @@
 
 #include "vtkRadianceBaker.h"
 
+#include "OpenGLErrors.h"
 #include "RegisteredProjection.h"
 #include "SamplingPattern.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
-#include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRadianceResolver.h"
@@ -115,6 +115,12 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   const std::vector<std::size_t>& receivers, vtkOpenGLRenderWindow* window,
   vtkRadianceTexture* texture)
 {
+  if (!penumbra::HasOpenGLContext())
+  {
+    vtkErrorMacro("No OpenGL context is current, so there is no bake: the "
+      << window->GetClassName() << " must be initialized and current.");
+    return {};
+  }
   std::vector<glm::ivec2> sizes;
   for (const std::size_t i : receivers)
   {
@@ -134,7 +140,6 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   this->Masks->ReleaseGraphicsResources();
   this->Occluders->ReleaseGraphicsResources();
   state->Pop();
-  vtkOpenGLCheckErrorMacro("failed after baking");
   return reports;
 }
 
@@ -157,14 +162,14 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowSc
     {
       job.Target = fine;
       job.Region = fine->GetRegions().front();
-      this->BakeLights(job);
-      texture->Downsample(fine, place, settings.Supersampling);
+      job.Result.IsComplete =
+        this->BakeLights(job) && texture->Downsample(fine, place, settings.Supersampling);
     }
     fine->ReleaseGraphicsResources();
   }
   else
   {
-    this->BakeLights(job);
+    job.Result.IsComplete = this->BakeLights(job);
   }
   glFinish();
   job.Result.Seconds = vtkTimerLog::GetUniversalTime() - start;
@@ -226,10 +231,9 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
     return true;
   }
   this->Occluders->Select(penumbra::BlockingRegion(job.Frame, seen));
-  this->Occluders->Upload();
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
   job.Result.LightSamples[light] = static_cast<int>(samples.size());
-  return this->Resolver->SetSamples(samples) &&
+  return this->Occluders->Upload() && this->Resolver->SetSamples(samples) &&
     this->DrawMasks(job, samples,
       [&](int firstRow, int lastRow, int maskFirstRow)
       {
@@ -262,7 +266,10 @@ bool vtkRadianceBaker::DrawMasks(
   for (int row = 0; row < size.y; row += rows)
   {
     const int maskFirstRow = std::max(row - halo, 0);
-    this->Masks->Draw(this->Occluders, projections, size, maskFirstRow);
+    if (!this->Masks->Draw(this->Occluders, projections, size, maskFirstRow))
+    {
+      return false;
+    }
     use(row, std::min(row + rows, size.y), maskFirstRow);
   }
   const std::size_t bytes = bytesPerRow * static_cast<std::size_t>(maskRows) +
@@ -300,12 +307,16 @@ bool vtkRadianceBaker::RefineLights(Job& job)
           : effect == penumbra::Effect::None || this->BakeLight(job, light, 0));
   }
   scratch->ReleaseGraphicsResources();
+  if (!isDone)
+  {
+    return false;
+  }
   const glm::dvec2 last = FindErrorAndPeak(job.Target->Download(job.Region), settings);
   if (last.x > settings.ErrorTolerance * last.y)
   {
     job.Result.StoppedBy = "MaximumLightSamples";
   }
-  return isDone;
+  return true;
 }
 
 bool vtkRadianceBaker::RefineLight(
@@ -321,7 +332,10 @@ bool vtkRadianceBaker::RefineLight(
     return false;
   }
   this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *job.Lights[light]));
-  this->Occluders->Upload();
+  if (!this->Occluders->Upload())
+  {
+    return false;
+  }
   int previous = 0;
   for (const int count : job.GetBatchEnds())
   {

@@ -49,7 +49,8 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that resolves shadows did not compile.");
+    vtkErrorMacro("The shader that resolves shadows did not compile. There is no bake; update the "
+                  "OpenGL driver.");
     return false;
   }
   const int shareRows = options.InBatches ? texels.y : this->StripRows + 2 * this->GetHalo();

@@ -56,6 +56,11 @@ public:
   bool Allocate(vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes);
 
   /**
+   * Whether there is a texture: not before Allocate(), and not once its window has freed it.
+   */
+  bool IsAllocated() const;
+
+  /**
    * The receivers' places, in the order of their sizes in Allocate().
    */
   const std::vector<Region>& GetRegions() const { return this->Regions; }
@@ -84,14 +89,16 @@ public:
   void Clear(const Region& region);
 
   /**
-   * Fill a region from a texture that is `factor` times finer and holds one receiver.
+   * Fill a region from a texture that is `factor` times finer and holds one receiver. False, after
+   * vtkErrorMacro, if OpenGL refuses the shader.
    */
-  void Downsample(vtkRadianceTexture* fine, const Region& region, int factor);
+  bool Downsample(vtkRadianceTexture* fine, const Region& region, int factor);
 
   /**
-   * Make the mip levels of the irradiance, after the last region is filled, to show it.
+   * Make the mip levels of the irradiance, after the last region is filled, to show it. False,
+   * after vtkErrorMacro, if OpenGL refuses.
    */
-  void GenerateMipmaps();
+  bool GenerateMipmaps();
 
   /**
    * Free them.
@@ -99,9 +106,10 @@ public:
   void ReleaseMipmaps();
 
   /**
-   * Make the mip levels of a texture with this one's layout, and set its filter.
+   * Make the mip levels of a texture with this one's layout, and set its filter. False, after
+   * vtkErrorMacro, if OpenGL refuses.
    */
-  void GenerateMipmaps(vtkTextureObject* texture) const;
+  bool GenerateMipmaps(vtkTextureObject* texture);
 
   /**
    * The texels of a texture with this layout, with or without mip levels.

@@ -53,6 +53,7 @@ struct ShownProp
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
+  bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
   bool IsMatte = false;
 
   std::size_t GetBytes() const
@@ -85,6 +86,7 @@ double GetLargestFactor(
 void MakeShownTexture(
   ShownProp& shown, const penumbra::ShadowScene& scene, vtkOpenGLRenderWindow* window)
 {
+  shown.WasTried = true;
   vtkOpenGLState* state = window->GetState();
   state->Push();
   if (shown.Shading == vtkSoftShadowPass::RADIANCE)
@@ -93,8 +95,7 @@ void MakeShownTexture(
     {
       shown.Factors->ReleaseGraphicsResources();
     }
-    shown.Texture->GenerateMipmaps();
-    shown.HasShownTexture = true;
+    shown.HasShownTexture = shown.Texture->GenerateMipmaps();
   }
   else
   {
@@ -188,6 +189,15 @@ struct vtkSoftShadowPass::Internals
   /// While the delegate draws:
   vtkRenderer* Renderer = nullptr;
   int TextureUnit = -1;
+
+  /// What a prop shows; nullptr if that was released since the delegate began.
+  const ShownProp* Find(vtkProp* prop) const
+  {
+    vtkInformation* keys = prop->GetPropertyKeys();
+    const int index = keys && keys->Has(RECEIVER_INDEX()) ? keys->Get(RECEIVER_INDEX()) : -1;
+    const bool isThere = index >= 0 && index < static_cast<int>(this->Shown.size());
+    return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
+  }
 };
 
 vtkSoftShadowPass::vtkSoftShadowPass()
@@ -314,7 +324,10 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
       continue;
     }
     ShownProp shown{ prop, receivers, vtkSmartPointer<vtkRadianceTexture>::New() };
-    if (!this->Baker->Bake(scene, receivers, window, shown.Texture).empty())
+    const auto reports = this->Baker->Bake(scene, receivers, window, shown.Texture);
+    if (!reports.empty() &&
+      std::all_of(reports.begin(), reports.end(),
+        [](const vtkRadianceBaker::Report& report) { return report.IsComplete; }))
     {
       shown.Texture->ReleaseVariance();
       this->Impl->Shown.push_back(shown);
@@ -324,6 +337,10 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
 
 void vtkSoftShadowPass::ChooseShading()
 {
+  // Props may have been deleted since they were baked.
+  std::vector<ShownProp>& all = this->Impl->Shown;
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](const ShownProp& s) { return !s.Prop; }), all.end());
   for (ShownProp& shown : this->Impl->Shown)
   {
     vtkInformation* keys = shown.Prop->GetPropertyKeys();
@@ -336,7 +353,7 @@ void vtkSoftShadowPass::ChooseShading()
       shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
-    if (isOther || !shown.HasShownTexture)
+    if (isOther || !shown.WasTried)
     {
       MakeShownTexture(shown, this->Impl->Collector->GetScene(), this->Impl->Window);
     }
@@ -371,12 +388,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   vtkProp* prop)
 {
   // A uniform that is declared twice does not compile, and VTK crashes on shaders that do not.
-  if (fragmentShader.find("penumbraTexture") != std::string::npos)
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || fragmentShader.find("penumbraTexture") != std::string::npos)
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   std::string defines =
     "#define PENUMBRA_RECEIVERS " + std::to_string(shown.Receivers.size()) + "\n";
   std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
@@ -414,12 +431,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   vtkAbstractMapper* /*mapper*/, vtkProp* prop, vtkOpenGLVertexArrayObject* /*VAO*/)
 {
-  if (!program->IsUniformUsed("penumbraTexture"))
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || !program->IsUniformUsed("penumbraTexture"))
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   vtkOpenGLState* state = this->Impl->Window->GetState();
   state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
   vtkTextureObject* texture =
@@ -479,6 +496,10 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
   {
     if (index < shown.Receivers.size())
     {
+      if (!shown.Texture->IsAllocated())
+      {
+        return nullptr; // it went with its window
+      }
       const auto texels = shown.Texture->Download(shown.Texture->GetRegions()[index]).Irradiance;
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);

@@ -4,10 +4,11 @@
 
 #include "vtkVisibilityMask.h"
 
+#include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkVisibilityMaskFS.h"
@@ -77,10 +78,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   this->Width = width;
   this->Height = height;
   const int layers = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
+  penumbra::ForgetOpenGLErrors();
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
   glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, width, height, layers, 0, GL_RED_INTEGER,
@@ -90,7 +88,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-  if (glGetError() != GL_NO_ERROR)
+  if (penumbra::HasOpenGLError())
   {
     vtkErrorMacro("OpenGL refused a mask of " << width << " x " << height << " texels for "
                                               << samples << " samples; ask for fewer of either.");
@@ -101,17 +99,19 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   return true;
 }
 
-void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
+bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
   int firstRow)
 {
   vtkOpenGLState* state = this->Window->GetState();
-  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
-    vtkVisibilityMaskVS, vtkVisibilityMaskFS, "");
+  vtkShaderProgram* program =
+    penumbra::ReadyProgram(this->Window, vtkVisibilityMaskVS, vtkVisibilityMaskFS);
   if (!program)
   {
-    vtkErrorMacro("The shader of the visibility masks did not compile.");
-    return;
+    vtkErrorMacro(
+      "The shader of the visibility masks did not compile. There is no bake; update the "
+      "OpenGL driver.");
+    return false;
   }
 
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
@@ -132,6 +132,7 @@ void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
     glClearBufferuiv(GL_COLOR, 0, unblocked);
     occluders->Draw(program, SetProjections(program, projections, first));
   }
+  return true;
 }
 
 void vtkVisibilityMask::ReleaseGraphicsResources()

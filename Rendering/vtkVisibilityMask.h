@@ -43,9 +43,9 @@ public:
   /**
    * Draw the masks of the texels in rows [firstRow, firstRow + height) of a receiver of `texels`,
    * whose width must be the width allocated. There must be no more projections than samples were
-   * allocated.
+   * allocated. False, after vtkErrorMacro, if OpenGL refuses the shader.
    */
-  void Draw(vtkOccluderGeometry* occluders,
+  bool Draw(vtkOccluderGeometry* occluders,
     const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
     int firstRow);
 

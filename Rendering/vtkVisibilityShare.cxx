@@ -5,6 +5,7 @@
 #include "vtkVisibilityShare.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "PolygonLight.h"
 #include "ReceiverTexels.h"
 #include "ScopedTexture.h"
@@ -68,7 +69,9 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that counts visibility masks did not compile.");
+    vtkErrorMacro(
+      "The shader that counts visibility masks did not compile. There is no bake; update "
+      "the OpenGL driver.");
     return false;
   }
   const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
@@ -113,9 +116,10 @@ bool vtkVisibilityShare::SetSamples(
 bool vtkVisibilityShare::UploadBuffer(
   vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values)
 {
-  texture->SetContext(this->Window);
+  penumbra::ForgetOpenGLErrors();
   return buffer->Upload(values.data(), values.size(), vtkOpenGLBufferObject::TextureBuffer) &&
-    texture->CreateTextureBuffer(static_cast<unsigned int>(values.size()), 4, VTK_FLOAT, buffer);
+    !penumbra::HasOpenGLError() &&
+    penumbra::MakeTextureOfBuffer(texture, this->Window, buffer, static_cast<int>(values.size()));
 }
 
 void vtkVisibilityShare::Count(
