@@ -33,9 +33,6 @@ vtkShadowFactors::vtkShadowFactors()
 {
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->Texture->SetInternalFormat(GL_RGB10_A2);
-  this->Texture->SetFormat(GL_RGBA);
-  this->Texture->SetDataType(GL_UNSIGNED_INT_2_10_10_10_REV);
 }
 
 vtkShadowFactors::~vtkShadowFactors() = default;
@@ -52,6 +49,10 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
   this->ReleaseGraphicsResources();
   this->Window = window;
   const glm::ivec2& size = radiance->GetSize();
+  this->Texture->SetContext(window); // it forgets the format
+  this->Texture->SetInternalFormat(GL_RGB10_A2);
+  this->Texture->SetFormat(GL_RGBA);
+  this->Texture->SetDataType(GL_UNSIGNED_INT_2_10_10_10_REV);
   if (!penumbra::AllocateTexture(this->Texture, window, size, 4, VTK_UNSIGNED_CHAR))
   {
     vtkErrorMacro("OpenGL refused a texture of " << size.x << " x " << size.y
