@@ -4,6 +4,7 @@
 
 #include "vtkSoftShadowPass.h"
 
+#include "FullScreenTriangle.h"
 #include "ScreenMap.h"
 #include "vtkActor.h"
 #include "vtkFloatArray.h"
@@ -110,6 +111,17 @@ void MakeShownTexture(
       shown.Factors->Make(window, shown.Texture, ambient, GetLargestFactor(scene, ambient));
   }
   state->Pop();
+}
+
+/// Whether OpenGL compiles what the shaders of props with so many receivers get: VTK crashes on
+/// shaders that do not compile.
+bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
+{
+  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
+    std::to_string(receivers) + "\n" + vtkSoftShadowFS +
+    "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
+    "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
+  return penumbra::ReadyFullScreenProgram(window, source.c_str());
 }
 
 /// True if an actor's material has no specular part.
@@ -356,6 +368,13 @@ void vtkSoftShadowPass::ChooseShading()
     if (isOther || !shown.WasTried)
     {
       MakeShownTexture(shown, this->Impl->Collector->GetScene(), this->Impl->Window);
+      if (!CompilesShadowCode(shown.Receivers.size(), this->Impl->Window))
+      {
+        vtkErrorMacro("The shader code that shows shadows on "
+          << shown.Receivers.size() << " receivers did not compile. They are drawn without "
+          << "shadows; update the OpenGL driver.");
+        shown.HasShownTexture = false;
+      }
     }
   }
 }

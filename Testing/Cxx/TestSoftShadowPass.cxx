@@ -6,6 +6,7 @@
 #include "PassScene.h"
 
 #include "vtkAssembly.h"
+#include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkCubeSource.h"
 #include "vtkFloatArray.h"

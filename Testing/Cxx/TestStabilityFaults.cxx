@@ -407,7 +407,8 @@ TEST(StabilityFault, ViewIsPlainWithoutAShader)
       { "shader of shares", RefuseShader("usampler2DArray masks"), {} },
       { "shader that resolves", RefuseShader("uniform int hasShares"), {} },
       { "shader of fine texels", RefuseShader("uniform int factor"), {}, supersample },
-      { "shader of factors", RefuseShader("uniform float scale"), {} } })
+      { "shader of factors", RefuseShader("uniform float scale"), {} },
+      { "shader of receivers", RefuseShader("uniform sampler2D penumbraTexture"), {} } })
   {
     ViewFault named = fault;
     named.Words = { "did not compile", "update the OpenGL driver" };

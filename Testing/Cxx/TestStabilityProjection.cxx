@@ -323,6 +323,37 @@ TEST(StabilityAccumulation, RadianceOverTwentyFourPowersOfTen)
   ExpectWithin("texels that other lights change", differences, 0.0);
 }
 
+// Lights of one hue, 24 powers of ten apart: where the bright one is hidden, the dim one keeps all
+// its digits.
+TEST(StabilityAccumulation, DimLightInTheUmbraOfABrightOne)
+{
+  TestScene dim = MakeLampScene(), both = MakeLampScene();
+  dim.Lights.clear();
+  both.Lights.clear();
+  both.AddLight({ -1.5, 0.3, 2.0 }, { -0.9, 0.3, 2.0 }, { -1.5, -0.3, 2.0 }, glm::dvec3(1e12));
+  for (TestScene* scene : { &dim, &both })
+  {
+    scene->AddLight({ 0.9, 0.5, 2.0 }, { 1.9, 0.5, 2.0 }, { 0.9, -0.5, 2.0 }, glm::dvec3(1e-12));
+    scene->AddPlate({ -0.2, -0.9, 0.0 }, { 0.0, 1.8, 0.0 }, { 0.0, 0.0, 1.2 });
+  }
+  dim.Name = "the dim light alone";
+  ExpectExactCount(dim);
+  both.Name = "the dim light and the bright one";
+  ExpectExactCount(both);
+  const Texels alone = BakeTexels(dim), together = BakeTexels(both);
+  double hidden = 0.0, differences = 0.0;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+  {
+    // A form factor is at most 1; one sample of the bright light gives more than that of the dim
+    // one.
+    const bool isHidden = together[i].r <= 1e-12f;
+    hidden += isHidden ? 1.0 : 0.0;
+    differences += isHidden && glm::vec3(alone[i]) != glm::vec3(together[i]) ? 1.0 : 0.0;
+  }
+  EXPECT_GT(hidden, 10.0);
+  ExpectWithin("texels of the umbra that the bright light changes", differences, 0.0);
+}
+
 TEST(StabilityAccumulation, TwoHundredLights)
 {
   RandomGeometry random(200);
