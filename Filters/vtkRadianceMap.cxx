@@ -203,6 +203,10 @@ int vtkRadianceMap::RequestData(
     const auto reports = baker->Bake(scene, receivers, window, texture);
     for (std::size_t i = 0; i < reports.size(); ++i)
     {
+      if (!reports[i].IsComplete)
+      {
+        continue;
+      }
       const penumbra::Receiver& receiver = scene.Receivers[reports[i].Receiver];
       vtkNew<vtkStructuredGrid> grid;
       AddPoints(receiver, grid);

@@ -4,17 +4,18 @@
 
 #include "vtkRadianceBaker.h"
 
+#include "OpenGLErrors.h"
 #include "RegisteredProjection.h"
 #include "SamplingPattern.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
-#include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRadianceResolver.h"
 #include "vtkRadianceTexture.h"
 #include "vtkTimerLog.h"
 #include "vtkVisibilityMask.h"
+#include "vtkVisibilityShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,6 @@ namespace
 /// The lowest height of a sample, in units of the receiver's size: on the plane itself it would
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
-
-/// The first samples of a light whose error is to be found: fewer say little of it.
-constexpr int FirstBatch = 64;
 
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
@@ -100,6 +98,14 @@ struct vtkRadianceBaker::Job
   std::size_t KeptBytes = 0;         ///< that are left of Wanted's
   Report Result;
 
+  /// How many samples of a light there are after each batch, with ErrorTolerance.
+  std::vector<int> GetBatchEnds() const
+  {
+    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
+    return vtkVisibilityShare::GetBatchEnds(std::min(this->Receiver.Settings.MaximumLightSamples,
+      vtkVisibilityMask::GetMaximumSamples(this->Window)));
+  }
+
   /// A pattern's points for a light.
   std::vector<penumbra::LightSample> TakeSamples(std::size_t light, int count) const
   {
@@ -112,7 +118,6 @@ struct vtkRadianceBaker::Job
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
     std::vector<glm::dvec2> points = pattern.Generate(
       count, static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
-    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
     points.resize(std::min(
       points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
     return this->Plan.Lights[light]->TakeSamples(points);
@@ -133,6 +138,12 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   const std::vector<std::size_t>& receivers, vtkOpenGLRenderWindow* window,
   vtkRadianceTexture* texture)
 {
+  if (!penumbra::HasOpenGLContext())
+  {
+    vtkErrorMacro("No OpenGL context is current, so there is no bake: the "
+      << window->GetClassName() << " must be initialized and current.");
+    return {};
+  }
   std::vector<glm::ivec2> sizes;
   for (const std::size_t i : receivers)
   {
@@ -156,7 +167,6 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   }
   this->ReleaseGraphicsResources();
   state->Pop();
-  vtkOpenGLCheckErrorMacro("failed after baking");
   return reports;
 }
 
@@ -229,8 +239,8 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
   {
     job.Target = fine;
     job.Region = { -job.Resolved.Low, job.Plan.Texels };
-    isDone = this->BakeLights(job);
-    texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
+    isDone =
+      this->BakeLights(job) && texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
   }
   fine->ReleaseGraphicsResources();
   return isDone;
@@ -246,8 +256,7 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   for (const std::size_t light : this->Scene->GetLightOrder())
   {
     const double solidAngle = job.Plan.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
-                             : settings.GetSampleCount(solidAngle);
+    int count = hasTolerance ? job.GetBatchEnds().front() : settings.GetSampleCount(solidAngle);
     if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
       settings.SolidAnglePerSample > 0.0)
     {
@@ -320,21 +329,20 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
       { this->Resolver->ResolveMasks(job.Target, job.Region, band, this->Masks, maskFirstTexel); });
 }
 
-void vtkRadianceBaker::SelectOccluders(
+bool vtkRadianceBaker::SelectOccluders(
   Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
 {
   if (!job.Receiver.Settings.Planner)
   {
     this->Occluders.SelectAll(*job.Plan.Lights[light]);
-    this->Geometry->Upload(this->Occluders);
-    return;
+    return this->Geometry->Upload(this->Occluders);
   }
   const penumbra::TexelRectangle around =
     rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
   const glm::dvec2 texels(job.Plan.Texels);
   this->Occluders.Select(*job.Plan.Lights[light],
     glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
-  this->Geometry->Upload(this->Occluders);
+  return this->Geometry->Upload(this->Occluders);
 }
 
 template <typename Use>
@@ -363,11 +371,11 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
     static_cast<int>(std::min(most / bytesPerRow, static_cast<std::size_t>(size.y)));
   const int rows = fitting == size.y ? fitting : std::max(fitting - 2 * halo, 1);
   const glm::ivec2 maskSize(size.x, std::min(rows + 2 * halo, size.y));
-  if (!this->Masks->Allocate(job.Window, maskSize, count))
+  if (!this->Masks->Allocate(job.Window, maskSize, count) ||
+    !this->SelectOccluders(job, light, all))
   {
     return false;
   }
-  this->SelectOccluders(job, light, all);
   const std::vector<penumbra::RegisteredProjection> projections =
     MakeProjections(samples, job.Plan.Frame);
   for (int row = rectangle.Low.y; row < rectangle.High.y; row += rows)
@@ -418,12 +426,16 @@ bool vtkRadianceBaker::RefineLights(Job& job)
           : this->BakeLight(job, light, 1));
   }
   scratch->ReleaseGraphicsResources();
+  if (!isDone)
+  {
+    return false;
+  }
   const glm::dvec2 last = FindErrorAndPeak(job.Target->Download(job.Region), settings);
   if (last.x > settings.ErrorTolerance * last.y)
   {
     job.Result.StoppedBy = "MaximumLightSamples";
   }
-  return isDone;
+  return true;
 }
 
 bool vtkRadianceBaker::RefineLight(
@@ -444,16 +456,15 @@ bool vtkRadianceBaker::RefineLight(
   const vtkRadianceTexture::Region scratchRegion = scratch->GetRegions().front();
   scratch->Clear(scratchRegion, penumbra::WholeRectangle(job.Plan.Texels));
   int previous = 0;
-  for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
-       count = std::min(2 * count, settings.MaximumLightSamples))
+  for (const int count : job.GetBatchEnds())
   {
     std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
     const int total = static_cast<int>(samples.size());
-    if (grows)
-    {
-      samples.erase(samples.begin(), samples.begin() + previous);
-    }
-    if (!this->Resolver->SetSamples(samples, grows ? previous : 0) ||
+    const bool isReady = this->Resolver->SetSamples(samples, previous);
+    // Masks of the new samples, in whole layers.
+    constexpr int Layer = vtkVisibilityMask::SamplesPerLayer;
+    samples.erase(samples.begin(), samples.begin() + previous / Layer * Layer);
+    if (!isReady ||
       !this->DrawMasks(job, light, samples, counted, false,
         [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
         { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); }))
@@ -463,11 +474,11 @@ bool vtkRadianceBaker::RefineLight(
     job.Result.Pairs[light].LightSamples = total;
     this->Resolver->ResolveCounts(scratch, scratchRegion, shaded, false);
     const glm::dvec2 error = FindErrorAndPeak(scratch->Download(scratchRegion), settings);
-    if (error.x <= allowed || total >= settings.MaximumLightSamples || total <= previous)
+    if (error.x <= allowed)
     {
       break;
     }
-    previous = total;
+    previous = grows ? count : 0;
   }
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
   for (const penumbra::TexelRectangle& lit : Subtract(job.Resolved, shaded))

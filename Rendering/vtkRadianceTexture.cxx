@@ -5,6 +5,7 @@
 #include "vtkRadianceTexture.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -35,20 +36,6 @@ vtkSmartPointer<vtkTextureObject> MakeTexture()
   texture->SetMinificationFilter(vtkTextureObject::Nearest);
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   return texture;
-}
-
-/// True if the allocation went through.
-bool AllocateFloats(
-  vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const glm::ivec2& size, int components)
-{
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
-  texture->SetContext(window);
-  return texture->Allocate2D(static_cast<unsigned int>(size.x), static_cast<unsigned int>(size.y),
-           components, VTK_FLOAT) &&
-    glGetError() == GL_NO_ERROR;
 }
 
 } // namespace
@@ -114,8 +101,8 @@ bool vtkRadianceTexture::Allocate(
                          << largestSide << " a side. Use a larger TexelSize.");
     return false;
   }
-  if (!AllocateFloats(this->Irradiance, window, this->Size, 4) ||
-    (withVariance && !AllocateFloats(this->Variance, window, this->Size, 1)))
+  if (!penumbra::AllocateTexture(this->Irradiance, window, this->Size, 4, VTK_FLOAT) ||
+    (withVariance && !penumbra::AllocateTexture(this->Variance, window, this->Size, 1, VTK_FLOAT)))
   {
     vtkErrorMacro("OpenGL refused a texture of " << this->Size.x << " x " << this->Size.y
                                                  << " texels. Use a larger TexelSize.");
@@ -175,15 +162,17 @@ void vtkRadianceTexture::BindAsTarget(
   state->vtkglScissor(origin.x, origin.y, size.x, size.y);
 }
 
-void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
+bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
   const Region& region, const penumbra::TexelRectangle& rectangle, int factor)
 {
   vtkShaderProgram* program =
     penumbra::ReadyFullScreenProgram(this->Window, vtkRadianceDownsampleFS);
   if (!program)
   {
-    vtkErrorMacro("The shader that filters radiance textures did not compile.");
-    return;
+    vtkErrorMacro(
+      "The shader that filters radiance textures did not compile. There is no bake; use "
+      "Supersampling 1, or update the OpenGL driver.");
+    return false;
   }
   this->BindAsTarget(region, rectangle, false);
   fine->Irradiance->Activate();
@@ -197,19 +186,18 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
   penumbra::DrawFullScreenTriangle();
   fine->Variance->Deactivate();
   fine->Irradiance->Deactivate();
+  return true;
 }
 
-void vtkRadianceTexture::GenerateMipmaps()
+bool vtkRadianceTexture::GenerateMipmaps()
 {
-  if (!this->HasMipmaps)
-  {
-    this->GenerateMipmaps(this->Irradiance);
-    this->HasMipmaps = true;
-  }
+  this->HasMipmaps = this->HasMipmaps || this->GenerateMipmaps(this->Irradiance);
+  return this->HasMipmaps;
 }
 
-void vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture) const
+bool vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture)
 {
+  penumbra::ForgetOpenGLErrors();
   // On software OpenGL, blending two levels and anisotropy would double a frame's time.
   texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
   texture->SetMaximumAnisotropicFiltering(1.0f);
@@ -218,14 +206,24 @@ void vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture) const
   texture->Activate();
   texture->SendParameters();
   glGenerateMipmap(GL_TEXTURE_2D);
+  const bool isDone = !penumbra::HasOpenGLError();
+  if (!isDone)
+  {
+    // Without levels, a texture that is to have them cannot be read.
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SendParameters();
+    vtkErrorMacro("OpenGL refused the mip levels of a texture of "
+      << this->Size.x << " x " << this->Size.y << " texels. Use a larger TexelSize.");
+  }
   texture->Deactivate();
+  return isDone;
 }
 
 void vtkRadianceTexture::ReleaseMipmaps()
 {
   // OpenGL frees no single levels. Without room for a copy, they stay.
   vtkSmartPointer<vtkTextureObject> copy = MakeTexture();
-  if (!this->HasMipmaps || !AllocateFloats(copy, this->Window, this->Size, 4))
+  if (!this->HasMipmaps || !penumbra::AllocateTexture(copy, this->Window, this->Size, 4, VTK_FLOAT))
   {
     copy->ReleaseGraphicsResources(this->Window);
     return;
@@ -272,6 +270,11 @@ vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
   return texels;
 }
 
+bool vtkRadianceTexture::IsAllocated() const
+{
+  return this->Window && this->Irradiance->GetHandle() != 0;
+}
+
 vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 {
   return this->Irradiance;
@@ -314,6 +317,8 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
 {
   if (this->Window)
   {
+    // VTK remembers what is bound by name, and OpenGL gives names again.
+    this->Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, 0);
     this->Irradiance->ReleaseGraphicsResources(this->Window);
     this->Variance->ReleaseGraphicsResources(this->Window);
     this->Framebuffer->ReleaseGraphicsResources(this->Window);

@@ -57,6 +57,11 @@ public:
     vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance = true);
 
   /**
+   * Whether there is a texture: not before Allocate(), and not once its window has freed it.
+   */
+  bool IsAllocated() const;
+
+  /**
    * The receivers' places, in the order of their sizes in Allocate().
    */
   const std::vector<Region>& GetRegions() const { return this->Regions; }
@@ -86,15 +91,17 @@ public:
 
   /**
    * Fill a rectangle of a region from a texture that is `factor` times finer, whose own texel (0,
-   * 0) is `fineFirst` of the receiver's finer ones.
+   * 0) is `fineFirst` of the receiver's finer ones. False, after vtkErrorMacro, if OpenGL refuses
+   * the shader.
    */
-  void Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
+  bool Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
     const penumbra::TexelRectangle& rectangle, int factor);
 
   /**
-   * Make the mip levels of the irradiance, after the last region is filled, to show it.
+   * Make the mip levels of the irradiance, after the last region is filled, to show it. False,
+   * after vtkErrorMacro, if OpenGL refuses.
    */
-  void GenerateMipmaps();
+  bool GenerateMipmaps();
 
   /**
    * Free them.
@@ -102,9 +109,10 @@ public:
   void ReleaseMipmaps();
 
   /**
-   * Make the mip levels of a texture with this one's layout, and set its filter.
+   * Make the mip levels of a texture with this one's layout, and set its filter. False, after
+   * vtkErrorMacro, if OpenGL refuses.
    */
-  void GenerateMipmaps(vtkTextureObject* texture) const;
+  bool GenerateMipmaps(vtkTextureObject* texture);
 
   /**
    * The texels of a texture with this layout, with or without mip levels.

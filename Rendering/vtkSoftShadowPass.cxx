@@ -4,6 +4,7 @@
 
 #include "vtkSoftShadowPass.h"
 
+#include "FullScreenTriangle.h"
 #include "PlanTable.h"
 #include "ScreenMap.h"
 #include "vtkActor.h"
@@ -56,6 +57,7 @@ struct ShownProp
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
+  bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
   bool IsMatte = false;
 
   std::size_t CountReceivers() const { return this->Baked->GetEntries().size(); }
@@ -89,6 +91,7 @@ double GetLargestFactor(
 void MakeShownTexture(
   ShownProp& shown, const penumbra::ShadowScene& scene, vtkOpenGLRenderWindow* window)
 {
+  shown.WasTried = true;
   vtkOpenGLState* state = window->GetState();
   state->Push();
   vtkRadianceTexture* texture = shown.Baked->GetTexture();
@@ -98,8 +101,7 @@ void MakeShownTexture(
     {
       shown.Factors->ReleaseGraphicsResources();
     }
-    texture->GenerateMipmaps();
-    shown.HasShownTexture = true;
+    shown.HasShownTexture = texture->GenerateMipmaps();
   }
   else
   {
@@ -114,6 +116,17 @@ void MakeShownTexture(
       shown.Factors->Make(window, texture, ambient, GetLargestFactor(scene, ambient));
   }
   state->Pop();
+}
+
+/// Whether OpenGL compiles what the shaders of props with so many receivers get: VTK crashes on
+/// shaders that do not compile.
+bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
+{
+  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
+    std::to_string(receivers) + "\n" + vtkSoftShadowFS +
+    "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
+    "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
+  return penumbra::ReadyFullScreenProgram(window, source.c_str());
 }
 
 /// True if an actor's material has no specular part.
@@ -224,6 +237,15 @@ struct vtkSoftShadowPass::Internals
   /// While the delegate draws:
   vtkRenderer* Renderer = nullptr;
   int TextureUnit = -1;
+
+  /// What a prop shows; nullptr if that was released since the delegate began.
+  const ShownProp* Find(vtkProp* prop) const
+  {
+    vtkInformation* keys = prop->GetPropertyKeys();
+    const int index = keys && keys->Has(RECEIVER_INDEX()) ? keys->Get(RECEIVER_INDEX()) : -1;
+    const bool isThere = index >= 0 && index < static_cast<int>(this->Shown.size());
+    return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
+  }
 };
 
 vtkSoftShadowPass::vtkSoftShadowPass()
@@ -378,6 +400,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     if (outcome != vtkBakedProp::Outcome::Unchanged)
     {
       shown.HasShownTexture = false;
+      shown.WasTried = false;
     }
     isBaked = isBaked || outcome == vtkBakedProp::Outcome::Baked;
     if (outcome != vtkBakedProp::Outcome::Failed)
@@ -406,6 +429,7 @@ void vtkSoftShadowPass::FinishDrafts()
     {
       shown.Baked->Finish(this->Baker, this->BakeMode == COMPLETE ? 0.0 : std::max(left, Shortest));
       shown.HasShownTexture = false;
+      shown.WasTried = false;
       isBaked = true;
     }
   }
@@ -447,6 +471,10 @@ std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
 
 void vtkSoftShadowPass::ChooseShading()
 {
+  // Props may have been deleted since they were baked.
+  std::vector<ShownProp>& all = this->Impl->Shown;
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](const ShownProp& s) { return !s.Prop; }), all.end());
   for (ShownProp& shown : this->Impl->Shown)
   {
     const int shading = this->GetShadingOf(shown.Prop);
@@ -458,9 +486,16 @@ void vtkSoftShadowPass::ChooseShading()
       shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
-    if (shown.Baked->HasTexture() && (isOther || !shown.HasShownTexture))
+    if (shown.Baked->HasTexture() && (isOther || !shown.WasTried))
     {
       MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
+      if (!CompilesShadowCode(shown.CountReceivers(), this->Impl->Window))
+      {
+        vtkErrorMacro("The shader code that shows shadows on "
+          << shown.CountReceivers() << " receivers did not compile. They are drawn without "
+          << "shadows; update the OpenGL driver.");
+        shown.HasShownTexture = false;
+      }
     }
   }
 }
@@ -493,12 +528,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   vtkProp* prop)
 {
   // A uniform that is declared twice does not compile, and VTK crashes on shaders that do not.
-  if (fragmentShader.find("penumbraTexture") != std::string::npos)
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || fragmentShader.find("penumbraTexture") != std::string::npos)
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   std::string defines =
     "#define PENUMBRA_RECEIVERS " + std::to_string(shown.CountReceivers()) + "\n";
   const std::vector<vtkBakedProp::Entry>& entries = shown.Baked->GetEntries();
@@ -543,12 +578,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   vtkAbstractMapper* /*mapper*/, vtkProp* prop, vtkOpenGLVertexArrayObject* /*VAO*/)
 {
-  if (!program->IsUniformUsed("penumbraTexture"))
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || !program->IsUniformUsed("penumbraTexture"))
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   vtkOpenGLState* state = this->Impl->Window->GetState();
   state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
   vtkRadianceTexture* radiance = shown.Baked->GetTexture();
@@ -611,7 +646,15 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
   {
     if (index < shown.CountReceivers())
     {
+      if (!this->Impl->Window)
+      {
+        return nullptr; // the texels went with it
+      }
       const auto texels = shown.Baked->Download(this->Impl->Scene, index, this->Impl->Window);
+      if (texels.empty())
+      {
+        return nullptr;
+      }
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);
       array->SetNumberOfTuples(static_cast<vtkIdType>(texels.size()));

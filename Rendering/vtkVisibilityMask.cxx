@@ -4,10 +4,11 @@
 
 #include "vtkVisibilityMask.h"
 
+#include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkVisibilityMaskFS.h"
@@ -76,10 +77,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2
   this->Window = window;
   this->Size = size;
   const int layers = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
+  penumbra::ForgetOpenGLErrors();
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
   glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, size.x, size.y, layers, 0, GL_RED_INTEGER,
@@ -89,7 +87,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-  if (glGetError() != GL_NO_ERROR)
+  if (penumbra::HasOpenGLError())
   {
     vtkErrorMacro("OpenGL refused a mask of " << size.x << " x " << size.y << " texels for "
                                               << samples << " samples; ask for fewer of either.");
@@ -105,11 +103,13 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   const glm::ivec2& firstTexel)
 {
   vtkOpenGLState* state = this->Window->GetState();
-  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
-    vtkVisibilityMaskVS, vtkVisibilityMaskFS, "");
+  vtkShaderProgram* program =
+    penumbra::ReadyProgram(this->Window, vtkVisibilityMaskVS, vtkVisibilityMaskFS);
   if (!program)
   {
-    vtkErrorMacro("The shader of the visibility masks did not compile.");
+    vtkErrorMacro(
+      "The shader of the visibility masks did not compile. There is no bake; update the "
+      "OpenGL driver.");
     return false;
   }
   const glm::vec2 grid(texels);

@@ -5,6 +5,8 @@
 #include "vtkVisibilityShare.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
+#include "PolygonLight.h"
 #include "ReceiverTexels.h"
 #include "ScopedTexture.h"
 #include "vtkObjectFactory.h"
@@ -18,7 +20,6 @@
 #include "vtkVisibilityMask.h"
 #include "vtkVisibilityShareFS.h"
 
-#include <algorithm>
 #include <string>
 
 vtkStandardNewMacro(vtkVisibilityShare);
@@ -26,17 +27,16 @@ vtkStandardNewMacro(vtkVisibilityShare);
 namespace
 {
 
-/// The largest power of the samples, by which it is divided: only ratios count, and floats must
-/// hold them.
-double GetLargestPower(
-  const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels)
+/// The radiance times area of a light of cells, by which that of the samples is divided: only
+/// ratios count, and floats must hold them.
+glm::dvec3 GetPower(const penumbra::LightShape& light)
 {
-  double largest = 0.0;
-  for (const penumbra::LightSample& sample : samples)
+  glm::dvec3 power(0.0);
+  for (const penumbra::EmittingPolygon& cell : light.GetPolygons())
   {
-    largest = std::max(largest, glm::dot(channels, sample.Power));
+    power += cell.Radiance * cell.Polygon->GetArea();
   }
-  return largest;
+  return power;
 }
 
 } // namespace
@@ -44,26 +44,42 @@ double GetLargestPower(
 vtkVisibilityShare::vtkVisibilityShare() = default;
 vtkVisibilityShare::~vtkVisibilityShare() = default;
 
+std::vector<int> vtkVisibilityShare::GetBatchEnds(int samples)
+{
+  constexpr int SmallestBatch = 64; // fewer say little of their error
+  std::vector<int> ends{ samples };
+  for (int count = (samples + 1) / 2; count >= SmallestBatch; count = (count + 1) / 2)
+  {
+    ends.insert(ends.begin(), count);
+  }
+  return ends;
+}
+
 bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size)
+  const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
+  bool inBatches)
 {
   this->Window = window;
   this->Frame = frame;
   this->Texels = texels;
   this->HasCells = seen.GetEmission() == penumbra::Emission::Cells;
+  this->Power = this->HasCells ? GetPower(seen) : glm::dvec3(0.0);
   std::string source = penumbra::WithReceiverTexels(vtkVisibilityShareFS);
   vtkShaderProgram::Substitute(source, "//Penumbra::Emission::Dec",
     "#define EMISSION " + std::to_string(static_cast<int>(seen.GetEmission())));
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that counts visibility masks did not compile.");
+    vtkErrorMacro(
+      "The shader that counts visibility masks did not compile. There is no bake; update "
+      "the OpenGL driver.");
     return false;
   }
   const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
   this->Program->SetUniform3f("lightAxis", &axis.x);
   this->Program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
-  return this->Textures[this->Current]->Allocate(window, size, 2);
+  this->Components = inBatches ? 4 : 2; // with the sums to go on from
+  return this->Textures[this->Current]->Allocate(window, size, this->Components);
 }
 
 bool vtkVisibilityShare::SetSamples(
@@ -72,7 +88,7 @@ bool vtkVisibilityShare::SetSamples(
   this->SampleCount = static_cast<int>(samples.size());
   this->PreviousCount = previousCount;
   std::vector<glm::vec4> places, cells;
-  const double largest = GetLargestPower(samples, channels);
+  const double power = glm::dot(channels, this->Power);
   for (const penumbra::LightSample& sample : samples)
   {
     places.push_back(sample.IsDirection
@@ -81,7 +97,7 @@ bool vtkVisibilityShare::SetSamples(
         : glm::vec4(glm::vec3(this->Frame.ToMetric(sample.Place)), 1.0f));
     const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
     cells.emplace_back(
-      glm::vec3(normal), largest > 0.0 ? glm::dot(channels, sample.Power) / largest : 0.0);
+      glm::vec3(normal), power > 0.0 ? glm::dot(channels, sample.Power) / power : 0.0);
   }
   if (!this->UploadBuffer(this->SampleBuffer, this->Samples, places) ||
     (this->HasCells && !this->UploadBuffer(this->CellBuffer, this->Cells, cells)))
@@ -93,7 +109,7 @@ bool vtkVisibilityShare::SetSamples(
   {
     const glm::ivec2 size = this->Textures[this->Current]->GetSize();
     this->Current = 1 - this->Current;
-    return this->Textures[this->Current]->Allocate(this->Window, size, 2);
+    return this->Textures[this->Current]->Allocate(this->Window, size, this->Components);
   }
   return true;
 }
@@ -101,9 +117,10 @@ bool vtkVisibilityShare::SetSamples(
 bool vtkVisibilityShare::UploadBuffer(
   vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values)
 {
-  texture->SetContext(this->Window);
+  penumbra::ForgetOpenGLErrors();
   return buffer->Upload(values.data(), values.size(), vtkOpenGLBufferObject::TextureBuffer) &&
-    texture->CreateTextureBuffer(static_cast<unsigned int>(values.size()), 4, VTK_FLOAT, buffer);
+    !penumbra::HasOpenGLError() &&
+    penumbra::MakeTextureOfBuffer(texture, this->Window, buffer, static_cast<int>(values.size()));
 }
 
 void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
@@ -122,8 +139,9 @@ void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskF
 
   program->SetUniform2i("maskFirstTexel", &maskFirstTexel.x);
   program->SetUniformi("sampleCount", this->SampleCount);
-  program->SetUniformi("firstHalfCount", (this->SampleCount + 1) / 2);
+  program->SetUniformi("halvings", static_cast<int>(GetBatchEnds(this->SampleCount).size()));
   program->SetUniformi("previousCount", this->PreviousCount);
+  program->SetUniformi("maskFirstWord", this->PreviousCount / vtkVisibilityMask::SamplesPerLayer);
   penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstTexel);
   this->GetTexture()->BindAsTarget(
     { rectangle.Low - firstTexel, rectangle.High - firstTexel }, false);
@@ -135,7 +153,7 @@ bool vtkVisibilityShare::Extend(
 {
   vtkStageTexture* old = this->Textures[this->Current];
   vtkStageTexture* extended = this->Textures[1 - this->Current];
-  if (!extended->Allocate(this->Window, to.GetSize(), 2))
+  if (!extended->Allocate(this->Window, to.GetSize(), this->Components))
   {
     return false;
   }

@@ -3,6 +3,7 @@
 
 // What makes no sense gets one clear message, and the rest of the scene is drawn.
 
+#include "Messages.h"
 #include "PassScene.h"
 
 #include "vtkAreaLightFromSurface.h"
@@ -12,12 +13,10 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkOutputWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRadianceMap.h"
 #include "vtkShadowFieldData.h"
 #include "vtkSphereSource.h"
-#include "vtkStringOutputWindow.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTrivialProducer.h"
 
@@ -33,44 +32,6 @@ namespace
 {
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
-/// Collects the messages that VTK prints while it lives.
-class Messages
-{
-public:
-  Messages()
-    : Before(vtkOutputWindow::GetInstance())
-  {
-    vtkOutputWindow::SetInstance(this->Window);
-  }
-  ~Messages() { vtkOutputWindow::SetInstance(this->Before); }
-
-  std::string GetText() const { return this->Window->GetOutput(); }
-  int Count(const std::string& what) const
-  {
-    int count = 0;
-    const std::string text = this->GetText();
-    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-    {
-      ++count;
-    }
-    return count;
-  }
-  /// One message, which has all of these words.
-  void ExpectOne(const std::vector<std::string>& words) const
-  {
-    EXPECT_EQ(this->Count("ERROR:") + this->Count("Warning:"), 1) << this->GetText();
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(this->GetText().find(word), std::string::npos)
-        << "no '" << word << "' in: " << this->GetText();
-    }
-  }
-
-private:
-  vtkSmartPointer<vtkOutputWindow> Before;
-  vtkNew<vtkStringOutputWindow> Window;
-};
 
 /// A RadianceMap of a floor under a light, to which tests add what makes no sense.
 struct FloorMap

@@ -316,12 +316,10 @@ glm::dvec3 Estimate(const penumbra::LightShape& light, double measure,
   glm::dvec3 sum(0.0);
   for (const LightSample& sample : samples)
   {
-    const glm::dvec3 share = light.GetEmission() == penumbra::Emission::Cells
-      ? sample.Power
-      : light.Radiance * (measure / static_cast<double>(samples.size()));
-    sum += GetWeight(light, sample, place) * share;
+    const bool isOfCells = light.GetEmission() == penumbra::Emission::Cells;
+    sum += GetWeight(light, sample, place) * (isOfCells ? sample.Power : light.Radiance * measure);
   }
-  return light.Faces(place.X) ? sum : glm::dvec3(0.0);
+  return light.Faces(place.X) ? sum / static_cast<double>(samples.size()) : glm::dvec3(0.0);
 }
 
 // What the weights of a light's samples add up to per share: its measure; for a sun, whose radiance
@@ -856,10 +854,12 @@ TEST(SurfaceLight, SamplesHaveItsPower)
     {
       for (const int count : { 1, 7, 64 })
       {
+        const std::vector<LightSample> samples = light.TakeSamples(pattern.Generate(count, seed));
         double sum = 0.0;
-        for (const LightSample& sample : light.TakeSamples(pattern.Generate(count, seed)))
+        for (const LightSample& sample : samples)
         {
-          sum += (sample.Power.x + sample.Power.y + sample.Power.z) / 3.0;
+          const double mean = (sample.Power.x + sample.Power.y + sample.Power.z) / 3.0;
+          sum += mean / static_cast<double>(samples.size());
         }
         // A cell's share is a difference of sums of size 1, and the smallest is some 1e-7 of them.
         EXPECT_NEAR(sum, emitted, 1e-8 * emitted) << pattern.Name;

@@ -15,7 +15,6 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkProperty.h"
 #include "vtkRadianceMap.h"
-#include "vtkSphereSource.h"
 #include "vtkStripper.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTransform.h"
@@ -25,44 +24,6 @@
 
 namespace
 {
-
-/// A floor with a sphere over it, under a square light.
-class FloorScene : public PassScene
-{
-public:
-  FloorScene()
-  {
-    this->Sphere->SetRadius(0.5);
-    this->Sphere->SetCenter(0.0, 0.0, 0.8);
-    this->Sphere->SetThetaResolution(24);
-    this->Sphere->SetPhiResolution(24);
-    this->Receiver->SetTexelSize(4.0 / 64);
-    this->FloorActor = this->AddReceiver({ -2, -2, 0 }, { 2, -2, 0 }, { -2, 2, 0 }, this->Receiver);
-    this->LightActor =
-      this->AddLight(this->Light, { -0.5, 0.5, 3.0 }, { 0.5, 0.5, 3.0 }, { -0.5, -0.5, 3.0 });
-    this->SphereActor = this->Add(this->Sphere);
-    vtkCamera* camera = this->Renderer->GetActiveCamera();
-    camera->SetPosition(3.0, -6.0, 4.0);
-    camera->SetFocalPoint(0.0, 0.0, 0.3);
-    camera->SetViewUp(0.0, 0.0, 1.0);
-    this->Renderer->ResetCameraClippingRange();
-  }
-
-  vtkNew<vtkSphereSource> Sphere;
-  vtkNew<vtkShadowReceiver> Receiver;
-  vtkNew<vtkAreaLightSource> Light;
-  vtkSmartPointer<vtkActor> FloorActor, LightActor, SphereActor;
-};
-
-std::size_t CountDifferences(const PassScene::Pixels& a, const PassScene::Pixels& b)
-{
-  std::size_t count = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
-  for (std::size_t i = 0; count < a.size() && i < a.size(); ++i)
-  {
-    count += a[i] != b[i] ? 1 : 0;
-  }
-  return count;
-}
 
 /// Notes the progress that a pass tells.
 class ProgressNote : public vtkCommand
