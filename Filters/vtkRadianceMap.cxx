@@ -97,10 +97,10 @@ void AddReport(const vtkRadianceBaker::Report& report, vtkStructuredGrid* grid)
   samples->SetName("LightSamples");
   vtkNew<vtkStringArray> effects;
   effects->SetName("Effect");
-  for (std::size_t i = 0; i < report.Effects.size(); ++i)
+  for (const vtkRadianceBaker::PairReport& pair : report.Pairs)
   {
-    samples->InsertNextValue(report.LightSamples[i]);
-    effects->InsertNextValue(penumbra::GetEffectName(report.Effects[i]));
+    samples->InsertNextValue(pair.LightSamples);
+    effects->InsertNextValue(penumbra::GetEffectName(pair.Effect));
   }
   vtkNew<vtkDoubleArray> seconds;
   seconds->SetName("BakeSeconds");

@@ -38,6 +38,9 @@ int vtkShadowReceiver::RequestData(
   settings.ErrorTolerance = this->ErrorTolerance;
   settings.MaximumLightSamples = this->MaximumLightSamples;
   settings.Reconstruction = this->Reconstruction;
+  settings.Planner = this->Planner;
+  settings.PlannerTolerance = this->PlannerTolerance;
+  settings.HardPenumbra = this->HardPenumbra;
   std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
   if (problem.empty())
   {
@@ -71,4 +74,7 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
   os << indent << "MaximumLightSamples: " << this->MaximumLightSamples << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
+  os << indent << "Planner: " << this->Planner << "\n";
+  os << indent << "PlannerTolerance: " << this->PlannerTolerance << "\n";
+  os << indent << "HardPenumbra: " << this->HardPenumbra << "\n";
 }

@@ -163,6 +163,36 @@ public:
   vtkBooleanMacro(Reconstruction, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether a planner decides what each light needs before it is computed: nothing, the closed form
+   * alone, one sample, or all samples where a shadow may fall. Off, every light that can arrive
+   * takes all its samples on all texels: to check the planner by. Default is on.
+   */
+  vtkSetMacro(Planner, bool);
+  vtkGetMacro(Planner, bool);
+  vtkBooleanMacro(Planner, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How much of the receiver's unoccluded peak the planner may leave out, 0 to 1: lights that add up
+   * to less. Default is 1/1024, a quarter of a level of an 8-bit picture.
+   */
+  vtkSetMacro(PlannerTolerance, double);
+  vtkGetMacro(PlannerTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * In texels: where no penumbra of a light can be wider, the planner takes one sample of it. A texel
+   * that such a penumbra crosses is then wholly lit or dark. 0 leaves that to lights without extent,
+   * as does an ErrorTolerance. Default is 1.
+   */
+  vtkSetMacro(HardPenumbra, double);
+  vtkGetMacro(HardPenumbra, double);
+  ///@}
+
 protected:
   vtkShadowReceiver();
   ~vtkShadowReceiver() override;
@@ -187,6 +217,9 @@ private:
   double ErrorTolerance = 0.0;
   int MaximumLightSamples = 4096;
   bool Reconstruction = true;
+  bool Planner = true;
+  double PlannerTolerance = 1.0 / 1024.0;
+  double HardPenumbra = 1.0;
 };
 
 #endif

@@ -83,6 +83,11 @@ double DirectionalLight::GetSolidAngleBound(const Parallelogram&) const
   return 4.0 * glm::pi<double>() * sine * sine;
 }
 
+glm::dvec3 DirectionalLight::GetIrradianceBound(const Parallelogram&) const
+{
+  return this->Radiance / glm::pi<double>(); // at normal incidence
+}
+
 std::vector<LightSample> DirectionalLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
 {
   LightSample sample;

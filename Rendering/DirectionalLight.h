@@ -41,6 +41,7 @@ public:
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
   double GetMeasure() const override { return this->IsThere ? 1.0 : 0.0; }
   double GetSolidAngleBound(const Parallelogram& receiver) const override;
+  glm::dvec3 GetIrradianceBound(const Parallelogram&) const override;
   std::vector<LightSample> TakeSamples(const std::vector<glm::dvec2>& pattern) const override;
   Emission GetEmission() const override { return Emission::Area; }
   glm::dvec3 GetAxis() const override { return this->Source; }

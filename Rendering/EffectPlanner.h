@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * What a (receiver, light) pair needs.
+ * What each (receiver, light) pair needs, before any texel is drawn.
  */
 #ifndef EffectPlanner_h
 #define EffectPlanner_h
 
 #include "LightShape.h"
+#include "OccluderSelector.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ReceiverFrame.h"
+#include "ShadowScene.h"
+#include "TexelRectangle.h"
+
+#include <string>
+#include <vector>
 
 namespace penumbra
 {
@@ -17,8 +23,11 @@ namespace penumbra
 /// What has to be computed for a light on a receiver (DESIGN 6).
 enum class Effect
 {
-  None, ///< no light arrives: the light is behind the receiver, or dark, or shines away from it
+  None, ///< no light arrives: the light is behind the receiver, or dark, or shines away from it, or
+        ///< is too faint to matter
   Unoccluded, ///< nothing can block: the closed form alone, no samples
+  Umbra,      ///< an occluder hides all of the light from all of the receiver
+  Hard,       ///< no penumbra is wider than HardPenumbra, by default a texel: one sample
   Soft        ///< samples decide how much of the light is seen
 };
 
@@ -26,7 +35,7 @@ enum class Effect
 PENUMBRARENDERING_EXPORT const char* GetEffectName(Effect effect);
 
 /**
- * Plans one pair from bounds alone.
+ * Plans one pair from bounds alone: None, Unoccluded or Soft.
  *
  * @param frame the receiver
  * @param seen the light, clipped to the receiver's lit side (LightShape::Clip)
@@ -34,6 +43,60 @@ PENUMBRARENDERING_EXPORT const char* GetEffectName(Effect effect);
  */
 PENUMBRARENDERING_EXPORT Effect PlanEffect(
   const ReceiverFrame& frame, const LightShape& seen, bool hasOccluders);
+
+/**
+ * Whether one plane of the selected triangles hides all of a light from all of a receiver: every
+ * ray from a corner of the one to a corner of the other meets it, and so all between them do, since
+ * where rays meet a plane is a convex combination of where their neighbours do. The triangles of a
+ * plane count together.
+ */
+PENUMBRARENDERING_EXPORT bool IsWhollyBlocked(
+  const ReceiverFrame& frame, const LightShape& seen, const OccluderSelector& occluders);
+
+/// A surface that may shade a receiver from a light, and where.
+struct PlannedCaster
+{
+  SharedSurface Surface;
+  TexelRectangle Shadow;
+};
+
+/// What was decided for a light on a receiver.
+struct PairPlan
+{
+  Effect Needed = Effect::None;
+  std::string Reason;
+  /// Where samples decide: the texels (of those that are baked, finer ones where there is
+  /// Supersampling) that some occluder may shade from some place on the light.
+  TexelRectangle Shaded;
+  double PenumbraTexels = 0.0; ///< the greatest width that a penumbra may have
+  bool IsUnbounded = false;  ///< an occluder reaches the light's height: shadows may fall anywhere
+  std::size_t Triangles = 0; ///< that may block
+  std::vector<PlannedCaster> Casters; ///< in the scene's order
+};
+
+/// What was decided for a receiver.
+struct ReceiverPlan
+{
+  ReceiverFrame Frame;
+  glm::ivec2 Texels{ 1 }; ///< that are baked: the receiver's times Supersampling
+  int Supersampling = 1;
+  std::vector<Light> Lights;   ///< the scene's, in its order, clipped to the receiver's front
+  std::vector<PairPlan> Pairs; ///< of each light
+};
+
+/**
+ * Plans a receiver. `occluders` has taken up the scene; it is given this receiver.
+ *
+ * All decisions are conservative. Those that are not exact differ from a bake of all samples
+ * - by at most PlannerTolerance of the receiver's unoccluded peak, where lights are left out that
+ * are too faint;
+ * - where no penumbra is wider than HardPenumbra: texels that one crosses are wholly lit or dark.
+ *
+ * With the receiver's setting Planner off, nothing is decided: every light that can arrive takes
+ * its samples, on all texels.
+ */
+PENUMBRARENDERING_EXPORT ReceiverPlan PlanReceiver(
+  const ShadowScene& scene, const Receiver& receiver, OccluderSelector& occluders);
 
 } // namespace penumbra
 

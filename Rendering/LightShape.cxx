@@ -9,10 +9,8 @@
 namespace penumbra
 {
 
-double BoundSolidAngle(
-  double area, const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver)
+double BoundDistance(const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver)
 {
-  // Boxes are no further apart than what they hold.
   glm::dvec3 receiverLow(receiver.Corner), receiverHigh(receiver.Corner);
   for (const glm::dvec3& edge : { receiver.EdgeX, receiver.EdgeY })
   {
@@ -21,9 +19,22 @@ double BoundSolidAngle(
   }
   const glm::dvec3 gap =
     glm::max(glm::max(low - receiverHigh, receiverLow - high), glm::dvec3(0.0));
-  const double squaredDistance = glm::dot(gap, gap);
+  return glm::length(gap);
+}
+
+double BoundSolidAngle(
+  double area, const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver)
+{
+  // Boxes are no further apart than what they hold.
+  const double distance = BoundDistance(low, high, receiver);
+  const double squaredDistance = distance * distance;
   const double most = 4.0 * glm::pi<double>();
   return area < most * squaredDistance ? area / squaredDistance : most;
+}
+
+glm::dvec3 LightShape::GetIrradianceBound(const Parallelogram& receiver) const
+{
+  return this->Radiance * std::min(this->GetSolidAngleBound(receiver) / glm::pi<double>(), 1.0);
 }
 
 } // namespace penumbra

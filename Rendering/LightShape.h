@@ -39,6 +39,10 @@ struct LightSample
 PENUMBRARENDERING_EXPORT double BoundSolidAngle(
   double area, const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver);
 
+/// The distance between the boxes around a parallelogram and from `low` to `high`.
+PENUMBRARENDERING_EXPORT double BoundDistance(
+  const glm::dvec3& low, const glm::dvec3& high, const Parallelogram& receiver);
+
 /// Points, or directions to points at infinity, in world coordinates.
 struct LightHull
 {
@@ -120,6 +124,12 @@ public:
   /// An upper bound of the solid angle of the light from any point of the parallelogram, 0 if it
   /// has none.
   virtual double GetSolidAngleBound(const Parallelogram& receiver) const = 0;
+
+  /**
+   * An upper bound of Irradiance(), in its three components, anywhere on the parallelogram. By
+   * default that of a diffuse surface: its form factor is at most its solid angle over pi.
+   */
+  virtual glm::dvec3 GetIrradianceBound(const Parallelogram& receiver) const;
 
   /// How many times as long as wide the unit square becomes on the light: strata follow it.
   virtual double GetAspect() const { return 1.0; }

@@ -46,6 +46,12 @@ double PointLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) con
     : 0.0;
 }
 
+glm::dvec3 PointLight::GetIrradianceBound(const Parallelogram& receiver) const
+{
+  const double distance = BoundDistance(this->Place, this->Place, receiver);
+  return this->Radiance / (glm::pi<double>() * distance * distance); // may be infinite
+}
+
 std::vector<LightSample> PointLight::TakeSamples(const std::vector<glm::dvec2>&) const
 {
   LightSample sample;

@@ -31,6 +31,7 @@ public:
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
   double GetMeasure() const override { return this->IsThere ? 1.0 : 0.0; }
   double GetSolidAngleBound(const Parallelogram&) const override { return 0.0; }
+  glm::dvec3 GetIrradianceBound(const Parallelogram& receiver) const override;
   std::vector<LightSample> TakeSamples(const std::vector<glm::dvec2>& pattern) const override;
   Emission GetEmission() const override { return Emission::Point; }
   std::vector<double> GetKey() const override;

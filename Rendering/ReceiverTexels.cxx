@@ -15,15 +15,15 @@ std::string WithReceiverTexels(const char* fragmentShader)
   return source;
 }
 
-void SetReceiverTexels(
-  vtkShaderProgram* program, const ReceiverFrame& frame, const glm::ivec2& texels, int firstRow)
+void SetReceiverTexels(vtkShaderProgram* program, const ReceiverFrame& frame,
+  const glm::ivec2& texels, const glm::ivec2& firstTexel)
 {
   const glm::vec3 x(frame.DirectionToMetric(frame.GetBase().EdgeX));
   const glm::vec3 y(frame.DirectionToMetric(frame.GetBase().EdgeY));
   const float edges[4] = { x.x, x.y, y.x, y.y };
   program->SetUniform4f("metricEdges", edges);
   program->SetUniform2i("regionSize", &texels.x);
-  program->SetUniformi("firstRow", firstRow);
+  program->SetUniform2i("firstTexel", &firstTexel.x);
 }
 
 } // namespace penumbra

@@ -19,9 +19,9 @@ namespace penumbra
 /// The shader with vtkReceiverTexel.glsl in its place.
 std::string WithReceiverTexels(const char* fragmentShader);
 
-/// Sets the uniforms; the receiver's row `firstRow` is row 0 of the target.
-void SetReceiverTexels(
-  vtkShaderProgram* program, const ReceiverFrame& frame, const glm::ivec2& texels, int firstRow);
+/// Sets the uniforms; the receiver's texel `firstTexel` is texel (0, 0) of the target.
+void SetReceiverTexels(vtkShaderProgram* program, const ReceiverFrame& frame,
+  const glm::ivec2& texels, const glm::ivec2& firstTexel);
 
 } // namespace penumbra
 

@@ -85,6 +85,14 @@ double SegmentLight::GetMeasure() const
   return std::isfinite(length) ? length : 0.0;
 }
 
+glm::dvec3 SegmentLight::GetIrradianceBound(const Parallelogram& receiver) const
+{
+  const double distance =
+    BoundDistance(glm::min(this->Begin, this->End), glm::max(this->Begin, this->End), receiver);
+  return this->Radiance * this->GetMeasure() /
+    (glm::pi<double>() * distance * distance); // may be infinite
+}
+
 std::vector<LightSample> SegmentLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
 {
   std::vector<LightSample> samples(pattern.size());

@@ -36,6 +36,7 @@ public:
   double FormFactor(const glm::dvec3& x, const glm::dvec3& normal) const override;
   double GetMeasure() const override; ///< the length
   double GetSolidAngleBound(const Parallelogram&) const override { return 0.0; }
+  glm::dvec3 GetIrradianceBound(const Parallelogram& receiver) const override;
   /// By the patterns' first dimension.
   std::vector<LightSample> TakeSamples(const std::vector<glm::dvec2>& pattern) const override;
   Emission GetEmission() const override { return Emission::Line; }

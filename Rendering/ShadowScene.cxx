@@ -44,6 +44,13 @@ glm::dvec2 LightOnSide(const LightShape& light, const ReceiverFrame& frame)
 
 } // namespace
 
+SharedSurface::SharedSurface(Surface surface)
+{
+  ClusterTree clusters(surface.Points, surface.Triangles);
+  this->Shared =
+    std::make_shared<const Indexed>(Indexed{ std::move(surface), std::move(clusters) });
+}
+
 double Receiver::GetBakedTexels() const
 {
   const double side = this->Settings.Supersampling;
@@ -83,6 +90,18 @@ double ShadowScene::ChooseTexels(std::size_t first)
       static_cast<int>(CountTexels(receiver, receiver.Base.EdgeY, growth)) };
   }
   return growth;
+}
+
+void ShadowScene::Append(const ShadowScene& other)
+{
+  const std::size_t first = this->Surfaces.size();
+  this->Surfaces.insert(this->Surfaces.end(), other.Surfaces.begin(), other.Surfaces.end());
+  for (Receiver receiver : other.Receivers)
+  {
+    receiver.Surface += first;
+    this->Receivers.push_back(receiver);
+  }
+  this->Lights.insert(this->Lights.end(), other.Lights.begin(), other.Lights.end());
 }
 
 ReceiverFrame ShadowScene::MakeFrame(const Receiver& receiver) const

@@ -7,6 +7,7 @@
 #ifndef ShadowScene_h
 #define ShadowScene_h
 
+#include "ClusterTree.h"
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ReceiverFrame.h"
@@ -14,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace penumbra
@@ -31,6 +33,31 @@ struct Surface
   std::vector<int> Regions;
   /// How far the coordinates may be off by the rounding of their type, along each axis.
   glm::dvec3 Rounding{ 0.0 };
+};
+
+/**
+ * A surface that scenes share for as long as it does not change, with the tree of its triangles.
+ */
+class PENUMBRARENDERING_EXPORT SharedSurface
+{
+public:
+  SharedSurface(Surface surface);
+
+  const Surface& operator*() const { return this->Shared->Contents; }
+  const Surface* operator->() const { return &this->Shared->Contents; }
+  const ClusterTree& GetClusters() const { return this->Shared->Clusters; }
+
+  /// Whether both are the same one, not only alike.
+  bool operator==(const SharedSurface& other) const { return this->Shared == other.Shared; }
+  bool operator!=(const SharedSurface& other) const { return this->Shared != other.Shared; }
+
+private:
+  struct Indexed
+  {
+    Surface Contents;
+    ClusterTree Clusters;
+  };
+  std::shared_ptr<const Indexed> Shared;
 };
 
 /// A receiver: one planar region of one surface.
@@ -53,7 +80,7 @@ struct PENUMBRARENDERING_EXPORT Receiver
  */
 struct PENUMBRARENDERING_EXPORT ShadowScene
 {
-  std::vector<Surface> Surfaces;
+  std::vector<SharedSurface> Surfaces;
   std::vector<Receiver> Receivers;
   std::vector<Light> Lights;
 
@@ -71,6 +98,9 @@ struct PENUMBRARENDERING_EXPORT ShadowScene
    * the limits above, the texels grow; the answer is by how much, 1 if not at all.
    */
   double ChooseTexels(std::size_t first);
+
+  /// Adds all that is in another scene.
+  void Append(const ShadowScene& other);
 
   /// The frame of a receiver with its lit side, which Auto chooses by the light that its centre
   /// gets.

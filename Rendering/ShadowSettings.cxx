@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 namespace penumbra
 {
@@ -46,6 +47,18 @@ bool IsIn(const glm::dvec3& v, double low, double high)
 }
 
 } // namespace
+
+bool ReceiverSettings::operator==(const ReceiverSettings& other) const
+{
+  const auto tie = [](const ReceiverSettings& s)
+  {
+    return std::tie(s.TexelSize, s.LightSamples, s.SampleMultiplier, s.SamplingPattern,
+      s.Supersampling, s.Reflectance, s.AmbientRadiance, s.Side, s.Seed, s.SolidAnglePerSample,
+      s.ErrorTolerance, s.MaximumLightSamples, s.Reconstruction, s.Planner, s.PlannerTolerance,
+      s.HardPenumbra);
+  };
+  return tie(*this) == tie(other);
+}
 
 std::string ReceiverSettings::FindProblem() const
 {
@@ -87,6 +100,14 @@ std::string ReceiverSettings::FindProblem() const
   if (!(this->ErrorTolerance >= 0.0 && this->ErrorTolerance <= 1.0))
   {
     return Describe("ErrorTolerance", this->ErrorTolerance, "0 (off) to 1, a share of the peak");
+  }
+  if (!(this->PlannerTolerance >= 0.0 && this->PlannerTolerance <= 1.0))
+  {
+    return Describe("PlannerTolerance", this->PlannerTolerance, "0 to 1, a share of the peak");
+  }
+  if (!(this->HardPenumbra >= 0.0) || !std::isfinite(this->HardPenumbra))
+  {
+    return Describe("HardPenumbra", this->HardPenumbra, "0 or a number of texels > 0");
   }
   if (this->MaximumLightSamples < 1 || this->MaximumLightSamples > MostLightSamples)
   {

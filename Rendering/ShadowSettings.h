@@ -39,6 +39,11 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
   double ErrorTolerance = 0.0;
   int MaximumLightSamples = 4096;
   bool Reconstruction = true;
+  bool Planner = true;
+  double PlannerTolerance = 1.0 / 1024.0;
+  double HardPenumbra = 1.0;
+
+  bool operator==(const ReceiverSettings& other) const;
 
   /// The largest number of samples of one light.
   static constexpr int MostLightSamples = 65536;

@@ -183,6 +183,16 @@ double SurfaceLight::GetSolidAngleBound(const Parallelogram& receiver) const
   return largest;
 }
 
+glm::dvec3 SurfaceLight::GetIrradianceBound(const Parallelogram& receiver) const
+{
+  glm::dvec3 sum(0.0);
+  for (const PolygonLight& cell : this->Cells)
+  {
+    sum += cell.GetIrradianceBound(receiver);
+  }
+  return this->Radiance * sum;
+}
+
 std::vector<LightSample> SurfaceLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
 {
   std::vector<LightSample> samples;

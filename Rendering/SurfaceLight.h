@@ -42,6 +42,7 @@ public:
   glm::dvec3 Irradiance(const glm::dvec3& x, const glm::dvec3& normal) const override;
   double GetMeasure() const override; ///< the area
   double GetSolidAngleBound(const Parallelogram& receiver) const override;
+  glm::dvec3 GetIrradianceBound(const Parallelogram& receiver) const override;
 
   /**
    * The cells are chosen by power, the mean of radiance's components times area: the first

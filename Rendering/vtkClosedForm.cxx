@@ -85,7 +85,7 @@ vtkClosedForm::vtkClosedForm() = default;
 vtkClosedForm::~vtkClosedForm() = default;
 
 bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const penumbra::LightShape& seen, const glm::ivec2& texels, int maximumRows)
+  const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& largest)
 {
   this->Window = window;
   this->Frame = frame;
@@ -100,7 +100,7 @@ bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::Receive
       return false;
     }
   }
-  return this->Texture->Allocate(window, { texels.x, maximumRows }, 4);
+  return this->Texture->Allocate(window, largest, 4);
 }
 
 bool vtkClosedForm::PrepareProgram(bool isLow)
@@ -117,53 +117,54 @@ bool vtkClosedForm::PrepareProgram(bool isLow)
   return program;
 }
 
-void vtkClosedForm::Draw(int firstRow, int lastRow)
+void vtkClosedForm::Draw(const penumbra::TexelRectangle& rectangle)
 {
   if (this->Programs[0] || this->Programs[1])
   {
-    this->DrawPolygons(firstRow, lastRow);
+    this->DrawPolygons(rectangle);
   }
   else
   {
-    this->Evaluate(firstRow, lastRow);
+    this->Evaluate(rectangle);
   }
 }
 
-void vtkClosedForm::DrawPolygons(int firstRow, int lastRow)
+void vtkClosedForm::DrawPolygons(const penumbra::TexelRectangle& rectangle)
 {
   bool add = false; // the first polygon replaces what is there
   for (const penumbra::EmittingPolygon& polygon : this->Seen->GetPolygons())
   {
     vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
       this->Programs[IsLow(this->Frame, *polygon.Polygon) ? 1 : 0]);
-    penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow);
+    penumbra::SetReceiverTexels(program, this->Frame, this->Texels, rectangle.Low);
     SetPolygonUniforms(program, this->Frame, polygon);
-    this->Texture->BindAsTarget(0, lastRow - firstRow, add);
+    this->Texture->BindAsTarget(penumbra::WholeRectangle(rectangle.GetSize()), add);
     penumbra::DrawFullScreenTriangle();
     add = true;
   }
 }
 
-void vtkClosedForm::Evaluate(int firstRow, int lastRow)
+void vtkClosedForm::Evaluate(const penumbra::TexelRectangle& rectangle)
 {
-  const auto width = static_cast<std::size_t>(this->Texels.x);
-  std::vector<glm::vec4> values(width * static_cast<std::size_t>(lastRow - firstRow));
+  const glm::ivec2 size = rectangle.GetSize();
+  std::vector<glm::vec4> values(
+    static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   const glm::dvec3 normal = this->Frame.GetNormal();
-  vtkSMPTools::For(firstRow, lastRow,
+  vtkSMPTools::For(0, size.y,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType row = begin; row < end; ++row)
       {
-        for (std::size_t i = 0; i < width; ++i)
+        for (int i = 0; i < size.x; ++i)
         {
-          const glm::dvec2 uv = (glm::dvec2(i, row) + 0.5) / glm::dvec2(this->Texels);
-          const glm::dvec3 x = this->Frame.ToWorld({ uv, 0.0 });
-          values[static_cast<std::size_t>(row - firstRow) * width + i] =
+          const glm::dvec2 texel = glm::dvec2(rectangle.Low) + glm::dvec2(i, row) + 0.5;
+          const glm::dvec3 x = this->Frame.ToWorld({ texel / glm::dvec2(this->Texels), 0.0 });
+          values[static_cast<std::size_t>(row * size.x + i)] =
             glm::vec4(this->Seen->Irradiance(x, normal), 0.0);
         }
       }
     });
-  this->Texture->Upload(lastRow - firstRow, &values.front().x);
+  this->Texture->Upload(size, &values.front().x);
 }
 
 void vtkClosedForm::ReleaseGraphicsResources()

@@ -4,16 +4,17 @@
  * @class vtkClosedForm
  * @brief what a light sends to each texel of a receiver where nothing blocks it
  *
- * Irradiance over pi in three components, for some rows of texels at a time. Polygons are evaluated
- * by OpenGL (vtkPolygonFormFactor.glsl), added up where the light has several; other lights by
- * penumbra::LightShape::Irradiance(), in double.
+ * Irradiance over pi in three components, for a rectangle of texels at a time. Polygons are
+ * evaluated by OpenGL (vtkPolygonFormFactor.glsl), added up where the light has several; other
+ * lights by penumbra::LightShape::Irradiance(), in double.
  */
 #ifndef vtkClosedForm_h
 #define vtkClosedForm_h
 
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "vtkNew.h"                  // for vtkNew
+#include "TexelRectangle.h"
+#include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for vtkWeakPointer
 
@@ -32,16 +33,17 @@ public:
 
   /**
    * Take up a light on a receiver of the given texels. `seen`, the light's part in front of the
-   * receiver, is kept by reference. False, after vtkErrorMacro, if OpenGL refuses.
+   * receiver, is kept by reference. `largest` bounds the rectangles that will be drawn. False,
+   * after vtkErrorMacro, if OpenGL refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-    const penumbra::LightShape& seen, const glm::ivec2& texels, int maximumRows);
+    const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& largest);
 
   /**
-   * Evaluate the rows [firstRow, lastRow), at most `maximumRows` of them, into rows from 0 on. The
-   * caller saves and restores vtkOpenGLState around it.
+   * Evaluate a rectangle of the receiver's texels; its first one goes to (0, 0). The caller saves
+   * and restores vtkOpenGLState around it.
    */
-  void Draw(int firstRow, int lastRow);
+  void Draw(const penumbra::TexelRectangle& rectangle);
 
   vtkStageTexture* GetTexture() { return this->Texture; }
 
@@ -59,8 +61,8 @@ private:
   void operator=(const vtkClosedForm&) = delete;
 
   bool PrepareProgram(bool isLow);
-  void DrawPolygons(int firstRow, int lastRow);
-  void Evaluate(int firstRow, int lastRow);
+  void DrawPolygons(const penumbra::TexelRectangle& rectangle);
+  void Evaluate(const penumbra::TexelRectangle& rectangle);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   /// The window's, for polygons that are not low (vtkPolygonFormFactor.glsl) and that are; none for

@@ -32,18 +32,6 @@ constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
 /// The first samples of a light whose error is to be found: fewer say little of it.
 constexpr int FirstBatch = 64;
 
-/// The lights as the receiver sees them: what lies in front of it.
-std::vector<penumbra::Light> ClipLights(
-  const std::vector<penumbra::Light>& lights, const penumbra::ReceiverFrame& frame)
-{
-  std::vector<penumbra::Light> seen;
-  for (const penumbra::Light& light : lights)
-  {
-    seen.emplace_back(light->Clip(frame.GetBase().Corner, frame.GetNormal()));
-  }
-  return seen;
-}
-
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
 {
@@ -74,32 +62,67 @@ glm::dvec2 FindErrorAndPeak(
   return { std::sqrt(variance / static_cast<double>(texels.Variance.size())), peak };
 }
 
+/// The parts of a rectangle that another one leaves.
+std::vector<penumbra::TexelRectangle> Subtract(
+  const penumbra::TexelRectangle& from, const penumbra::TexelRectangle& other)
+{
+  const penumbra::TexelRectangle inner = from.Intersection(other);
+  if (inner.IsEmpty())
+  {
+    return { from };
+  }
+  std::vector<penumbra::TexelRectangle> parts;
+  for (const penumbra::TexelRectangle& part :
+    { from.Rows(from.Low.y, inner.Low.y), from.Rows(inner.High.y, from.High.y),
+      penumbra::TexelRectangle{ { from.Low.x, inner.Low.y }, { inner.Low.x, inner.High.y } },
+      penumbra::TexelRectangle{ { inner.High.x, inner.Low.y }, { from.High.x, inner.High.y } } })
+  {
+    if (!part.IsEmpty())
+    {
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
 } // namespace
 
 /// What the stages of one receiver's bake share.
 struct vtkRadianceBaker::Job
 {
-  const penumbra::ShadowScene& Scene;
+  const penumbra::ReceiverPlan& Plan;
   const penumbra::Receiver& Receiver;
-  penumbra::ReceiverFrame Frame;
-  std::vector<penumbra::Light> Lights; ///< clipped to the receiver's front
+  const Part& Wanted;
   vtkOpenGLRenderWindow* Window;
-  vtkRadianceTexture* Target;
-  vtkRadianceTexture::Region Region; ///< in Target, of supersampled texels
+  vtkRadianceTexture* Target = nullptr;
+  vtkRadianceTexture::Region Region; ///< in Target, of the texels that are baked
+  penumbra::TexelRectangle Resolved; ///< of these
+  std::size_t KeptBytes = 0;         ///< that are left of Wanted's
   Report Result;
 
   /// A pattern's points for a light.
   std::vector<penumbra::LightSample> TakeSamples(std::size_t light, int count) const
   {
+    if (this->Plan.Pairs[light].Needed == penumbra::Effect::Hard)
+    {
+      return this->Plan.Lights[light]->TakeSamples({ glm::dvec2(0.5) });
+    }
     const penumbra::ReceiverSettings& settings = this->Receiver.Settings;
     const penumbra::SamplingPattern& pattern =
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
     std::vector<glm::dvec2> points = pattern.Generate(
-      count, static_cast<std::uint32_t>(settings.Seed), this->Lights[light]->GetAspect());
+      count, static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
     // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
     points.resize(std::min(
       points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
-    return this->Lights[light]->TakeSamples(points);
+    return this->Plan.Lights[light]->TakeSamples(points);
+  }
+
+  void NoteBytes(std::size_t light, std::size_t bytes)
+  {
+    PairReport& pair = this->Result.Pairs[light];
+    pair.Bytes = std::max(pair.Bytes, bytes);
+    this->Result.PeakBytes = std::max(this->Result.PeakBytes, bytes + this->Target->GetBytes());
   }
 };
 
@@ -120,82 +143,127 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   state->Push();
   if (!receivers.empty() && texture->Allocate(window, sizes))
   {
+    this->SetScene(scene);
     for (std::size_t i = 0; i < receivers.size(); ++i)
     {
-      reports.push_back(this->BakeReceiver(scene, receivers[i], window, texture, i));
+      const double start = vtkTimerLog::GetUniversalTime();
+      const penumbra::ReceiverPlan plan = this->Plan(receivers[i]);
+      Part whole;
+      whole.Rectangle = penumbra::WholeRectangle(sizes[i]);
+      reports.push_back(this->BakePart(plan, receivers[i], window, texture, i, whole));
+      reports.back().Seconds = vtkTimerLog::GetUniversalTime() - start;
     }
   }
-  this->Resolver->ReleaseGraphicsResources();
-  this->Masks->ReleaseGraphicsResources();
-  this->Occluders->ReleaseGraphicsResources();
+  this->ReleaseGraphicsResources();
   state->Pop();
   vtkOpenGLCheckErrorMacro("failed after baking");
   return reports;
 }
 
-vtkRadianceBaker::Report vtkRadianceBaker::BakeReceiver(const penumbra::ShadowScene& scene,
+void vtkRadianceBaker::SetScene(const penumbra::ShadowScene& scene)
+{
+  this->Scene = &scene;
+  this->Occluders.SetScene(scene);
+}
+
+penumbra::ReceiverPlan vtkRadianceBaker::Plan(std::size_t receiver)
+{
+  return penumbra::PlanReceiver(*this->Scene, this->Scene->Receivers[receiver], this->Occluders);
+}
+
+vtkRadianceBaker::Report vtkRadianceBaker::MakeReport(
+  const penumbra::ReceiverPlan& plan, const penumbra::ShadowScene& scene, std::size_t receiver)
+{
+  std::size_t triangles = 0;
+  for (const penumbra::SharedSurface& surface : scene.Surfaces)
+  {
+    triangles += surface->Triangles.size();
+  }
+  Report report;
+  report.Receiver = receiver;
+  for (const penumbra::PairPlan& pair : plan.Pairs)
+  {
+    report.Pairs.push_back({ pair.Needed, pair.Reason, 0, 0, pair.Triangles, triangles, 0.0, 0 });
+  }
+  return report;
+}
+
+vtkRadianceBaker::Report vtkRadianceBaker::BakePart(const penumbra::ReceiverPlan& plan,
   std::size_t receiver, vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture,
-  std::size_t region)
+  std::size_t region, const Part& part)
 {
   const double start = vtkTimerLog::GetUniversalTime();
-  const penumbra::Receiver& r = scene.Receivers[receiver];
-  const penumbra::ReceiverFrame frame = scene.MakeFrame(r);
-  const penumbra::ReceiverSettings& settings = r.Settings;
-  const vtkRadianceTexture::Region place = texture->GetRegions()[region];
-  Job job{ scene, r, frame, ClipLights(scene.Lights, frame), window, texture, place, {} };
-  job.Result.Receiver = receiver;
-
-  if (settings.Supersampling > 1)
-  {
-    vtkNew<vtkRadianceTexture> fine;
-    if (fine->Allocate(window, { place.Size * settings.Supersampling }))
-    {
-      job.Target = fine;
-      job.Region = fine->GetRegions().front();
-      this->BakeLights(job);
-      texture->Downsample(fine, place, settings.Supersampling);
-    }
-    fine->ReleaseGraphicsResources();
-  }
-  else
-  {
-    this->BakeLights(job);
-  }
+  const penumbra::Receiver& r = this->Scene->Receivers[receiver];
+  Job job{ plan, r, part, window, nullptr, {}, {}, part.KeptBytes,
+    MakeReport(plan, *this->Scene, receiver) };
+  this->Occluders.SetReceiver(r, plan.Frame);
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  job.Result.IsComplete = this->BakeReceiver(job, texture, region);
   glFinish();
+  state->Pop();
   job.Result.Seconds = vtkTimerLog::GetUniversalTime() - start;
   return job.Result;
 }
 
+bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::size_t region)
+{
+  const vtkRadianceTexture::Region place = texture->GetRegions()[region];
+  const penumbra::TexelRectangle& wanted = job.Wanted.Rectangle;
+  const int factor = job.Plan.Supersampling;
+  if (factor == 1)
+  {
+    texture->Clear(place, wanted);
+    job.Target = texture;
+    job.Region = place;
+    job.Resolved = wanted;
+    return this->BakeLights(job);
+  }
+  // The finer texels that the wanted ones are made of.
+  job.Resolved = penumbra::TexelRectangle{ wanted.Low * factor, wanted.High * factor }
+                   .Grown(factor / 2)
+                   .Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+  vtkNew<vtkRadianceTexture> fine;
+  bool isDone = false;
+  if (fine->Allocate(job.Window, { job.Resolved.GetSize() }))
+  {
+    job.Target = fine;
+    job.Region = { -job.Resolved.Low, job.Plan.Texels };
+    isDone = this->BakeLights(job);
+    texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
+  }
+  fine->ReleaseGraphicsResources();
+  return isDone;
+}
+
 bool vtkRadianceBaker::BakeLights(Job& job)
 {
-  this->Occluders->SetReceiver(job.Scene, job.Receiver, job.Frame);
-  job.Result.LightSamples.assign(job.Lights.size(), 0);
-  for (const penumbra::Light& light : job.Lights)
-  {
-    const std::size_t triangles =
-      light->IsValid() ? this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *light)) : 0;
-    job.Result.Triangles.push_back(triangles);
-    job.Result.Effects.push_back(penumbra::PlanEffect(job.Frame, *light, triangles > 0));
-  }
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
-  const bool hasTolerance = settings.ErrorTolerance > 0.0;
+  const bool hasTolerance = settings.ErrorTolerance > 0.0 && job.Wanted.MostSamples == 0;
   job.Result.StoppedBy = hasTolerance    ? "ErrorTolerance"
     : settings.SolidAnglePerSample > 0.0 ? "SolidAnglePerSample"
                                          : "LightSamples";
-  for (const std::size_t light : job.Scene.GetLightOrder())
+  for (const std::size_t light : this->Scene->GetLightOrder())
   {
-    const double solidAngle = job.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    const int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
-                                   : settings.GetSampleCount(solidAngle);
+    const double solidAngle = job.Plan.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
+    int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
+                             : settings.GetSampleCount(solidAngle);
     if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
       settings.SolidAnglePerSample > 0.0)
     {
       job.Result.StoppedBy = "MaximumLightSamples";
     }
-    if (job.Result.Effects[light] != penumbra::Effect::None && !this->BakeLight(job, light, count))
+    count = job.Wanted.MostSamples > 0 ? std::min(count, job.Wanted.MostSamples) : count;
+    const double start = vtkTimerLog::GetUniversalTime();
+    if (!this->BakeLight(job, light, count))
     {
       return false;
     }
+    if (job.Plan.Lights.size() > 1)
+    {
+      glFinish();
+    }
+    job.Result.Pairs[light].Milliseconds = 1000.0 * (vtkTimerLog::GetUniversalTime() - start);
   }
   return !hasTolerance || this->RefineLights(job);
 }
@@ -210,59 +278,114 @@ vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job) const
 
 bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
 {
-  const penumbra::LightShape& seen = *job.Lights[light];
-  if (!this->Resolver->Begin(job.Window, job.Frame, seen, job.Region.Size, this->GetOptions(job)))
+  const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  if (pair.Needed == penumbra::Effect::None)
+  {
+    return true;
+  }
+  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
+        job.Resolved, {}, this->GetOptions(job)))
   {
     return false;
   }
-  if (job.Result.Effects[light] == penumbra::Effect::Unoccluded)
+  if (pair.Needed == penumbra::Effect::Umbra)
   {
-    this->Resolver->ResolveUnblocked(job.Target, job.Region);
+    this->Resolver->ResolveUniform(job.Target, job.Region, job.Resolved, 0.0f);
     return true;
   }
-  this->Occluders->Select(penumbra::BlockingRegion(job.Frame, seen));
-  this->Occluders->Upload();
+  for (const penumbra::TexelRectangle& lit : Subtract(job.Resolved, pair.Shaded))
+  {
+    this->Resolver->ResolveUniform(job.Target, job.Region, lit, 1.0f);
+  }
+  return job.Resolved.Intersection(pair.Shaded).IsEmpty() || this->BakeShaded(job, light, count);
+}
+
+bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
+{
+  const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  const penumbra::TexelRectangle shaded = job.Resolved.Intersection(pair.Shaded);
+  if (job.Wanted.Kept && this->BakeFromKept(job, light, count, shaded))
+  {
+    return true;
+  }
+  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
+        shaded, pair.Shaded, this->GetOptions(job)))
+  {
+    return false;
+  }
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
-  job.Result.LightSamples[light] = static_cast<int>(samples.size());
   return this->Resolver->SetSamples(samples) &&
-    this->DrawMasks(job, samples,
-      [&](int firstRow, int lastRow, int maskFirstRow)
-      {
-        this->Resolver->ResolveMasks(
-          job.Target, job.Region, firstRow, lastRow, this->Masks, maskFirstRow);
-      });
+    this->DrawMasks(job, light, samples, shaded, true,
+      [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
+      { this->Resolver->ResolveMasks(job.Target, job.Region, band, this->Masks, maskFirstTexel); });
+}
+
+void vtkRadianceBaker::SelectOccluders(
+  Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
+{
+  if (!job.Receiver.Settings.Planner)
+  {
+    this->Occluders.SelectAll(*job.Plan.Lights[light]);
+    this->Geometry->Upload(this->Occluders);
+    return;
+  }
+  const penumbra::TexelRectangle around =
+    rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+  const glm::dvec2 texels(job.Plan.Texels);
+  this->Occluders.Select(*job.Plan.Lights[light],
+    glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
+  this->Geometry->Upload(this->Occluders);
 }
 
 template <typename Use>
-bool vtkRadianceBaker::DrawMasks(
-  Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use)
+bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
+  const std::vector<penumbra::LightSample>& samples, const penumbra::TexelRectangle& rectangle,
+  bool withHalo, const Use& use)
 {
-  const glm::ivec2 size = job.Region.Size;
+  const auto getMasks = [&](const penumbra::TexelRectangle& band)
+  { return withHalo ? this->Resolver->GetMaskRectangle(band) : band; };
+  const penumbra::TexelRectangle all = getMasks(rectangle);
+  const glm::ivec2 size = all.GetSize();
+  const int halo = withHalo ? this->Resolver->GetHalo() : 0;
   const int count = static_cast<int>(samples.size());
-  const int halo = this->Resolver->GetHalo();
   const std::size_t layers =
     static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
     vtkVisibilityMask::SamplesPerLayer;
   const std::size_t bytesPerRow = static_cast<std::size_t>(size.x) * layers * sizeof(std::uint32_t);
-  const int most = static_cast<int>(
-    std::min(this->MaximumMaskBytes / bytesPerRow, static_cast<std::size_t>(size.y)));
-  const int rows = most == size.y ? most : std::max(most - 2 * halo, 1);
-  const int maskRows = std::min(rows + 2 * halo, size.y);
-  if (!this->Masks->Allocate(job.Window, size.x, maskRows, count))
+  std::size_t most = this->MaximumMaskBytes;
+  if (job.Wanted.Kept)
+  {
+    const std::size_t kept = job.Wanted.KeptBytes - job.KeptBytes;
+    most =
+      std::min(most, job.Wanted.MaskAndKeptBytes - std::min(kept, job.Wanted.MaskAndKeptBytes));
+  }
+  const int fitting =
+    static_cast<int>(std::min(most / bytesPerRow, static_cast<std::size_t>(size.y)));
+  const int rows = fitting == size.y ? fitting : std::max(fitting - 2 * halo, 1);
+  const glm::ivec2 maskSize(size.x, std::min(rows + 2 * halo, size.y));
+  if (!this->Masks->Allocate(job.Window, maskSize, count))
   {
     return false;
   }
+  this->SelectOccluders(job, light, all);
   const std::vector<penumbra::RegisteredProjection> projections =
-    MakeProjections(samples, job.Frame);
-  for (int row = 0; row < size.y; row += rows)
+    MakeProjections(samples, job.Plan.Frame);
+  for (int row = rectangle.Low.y; row < rectangle.High.y; row += rows)
   {
-    const int maskFirstRow = std::max(row - halo, 0);
-    this->Masks->Draw(this->Occluders, projections, size, maskFirstRow);
-    use(row, std::min(row + rows, size.y), maskFirstRow);
+    const penumbra::TexelRectangle band =
+      rectangle.Rows(row, std::min(row + rows, rectangle.High.y));
+    const glm::ivec2 first = getMasks(band).Low;
+    if (!this->Masks->Draw(this->Geometry, projections, job.Plan.Texels, first))
+    {
+      return false;
+    }
+    use(band, first);
   }
-  const std::size_t bytes = bytesPerRow * static_cast<std::size_t>(maskRows) +
-    job.Target->GetBytes() + this->Resolver->GetBytes();
-  job.Result.PeakBytes = std::max(job.Result.PeakBytes, bytes);
+  PairReport& report = job.Result.Pairs[light];
+  report.LightSamples += count;
+  report.Texels = static_cast<std::size_t>(all.GetArea());
+  job.NoteBytes(
+    light, bytesPerRow * static_cast<std::size_t>(maskSize.y) + this->Resolver->GetBytes());
   return true;
 }
 
@@ -271,28 +394,28 @@ bool vtkRadianceBaker::RefineLights(Job& job)
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const glm::dvec2 first = FindErrorAndPeak(job.Target->Download(job.Region), settings);
   const double allowed = settings.ErrorTolerance * first.y;
-  const auto soft =
-    std::count(job.Result.Effects.begin(), job.Result.Effects.end(), penumbra::Effect::Soft);
+  const auto soft = std::count_if(job.Plan.Pairs.begin(), job.Plan.Pairs.end(),
+    [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
   if (first.x <= allowed || soft == 0)
   {
     return true;
   }
   vtkNew<vtkRadianceTexture> scratch;
-  if (!scratch->Allocate(job.Window, { job.Region.Size }))
+  if (!scratch->Allocate(job.Window, { job.Plan.Texels }))
   {
     return false;
   }
   // The lights' errors add up as their squares do, and each gets an equal part.
   const double allowedOfLight = allowed / std::sqrt(static_cast<double>(soft));
-  job.Target->Clear(job.Region);
+  job.Target->Clear(job.Region, job.Resolved);
   bool isDone = true;
-  for (const std::size_t light : job.Scene.GetLightOrder())
+  for (const std::size_t light : this->Scene->GetLightOrder())
   {
-    const penumbra::Effect effect = job.Result.Effects[light];
+    job.Result.Pairs[light].LightSamples = 0;
     isDone = isDone &&
-      (effect == penumbra::Effect::Soft
+      (job.Plan.Pairs[light].Needed == penumbra::Effect::Soft
           ? this->RefineLight(job, light, allowedOfLight, scratch)
-          : effect == penumbra::Effect::None || this->BakeLight(job, light, 0));
+          : this->BakeLight(job, light, 1));
   }
   scratch->ReleaseGraphicsResources();
   const glm::dvec2 last = FindErrorAndPeak(job.Target->Download(job.Region), settings);
@@ -311,12 +434,15 @@ bool vtkRadianceBaker::RefineLight(
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Grows;
   vtkRadianceResolver::Options options = this->GetOptions(job);
   options.InBatches = true;
-  if (!this->Resolver->Begin(job.Window, job.Frame, *job.Lights[light], job.Region.Size, options))
+  const penumbra::TexelRectangle& shaded = job.Plan.Pairs[light].Shaded;
+  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
+        job.Resolved, shaded, options))
   {
     return false;
   }
-  this->Occluders->Select(penumbra::BlockingRegion(job.Frame, *job.Lights[light]));
-  this->Occluders->Upload();
+  const penumbra::TexelRectangle counted = this->Resolver->GetMaskRectangle(shaded);
+  const vtkRadianceTexture::Region scratchRegion = scratch->GetRegions().front();
+  scratch->Clear(scratchRegion, penumbra::WholeRectangle(job.Plan.Texels));
   int previous = 0;
   for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
        count = std::min(2 * count, settings.MaximumLightSamples))
@@ -328,24 +454,79 @@ bool vtkRadianceBaker::RefineLight(
       samples.erase(samples.begin(), samples.begin() + previous);
     }
     if (!this->Resolver->SetSamples(samples, grows ? previous : 0) ||
-      !this->DrawMasks(job, samples,
-        [&](int firstRow, int lastRow, int maskFirstRow)
-        { this->Resolver->CountMasks(this->Masks, maskFirstRow, firstRow, lastRow); }))
+      !this->DrawMasks(job, light, samples, counted, false,
+        [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
+        { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); }))
     {
       return false;
     }
-    job.Result.LightSamples[light] = total;
-    this->Resolver->ResolveCounts(scratch, scratch->GetRegions().front(), false);
-    const glm::dvec2 error =
-      FindErrorAndPeak(scratch->Download(scratch->GetRegions().front()), settings);
+    job.Result.Pairs[light].LightSamples = total;
+    this->Resolver->ResolveCounts(scratch, scratchRegion, shaded, false);
+    const glm::dvec2 error = FindErrorAndPeak(scratch->Download(scratchRegion), settings);
     if (error.x <= allowed || total >= settings.MaximumLightSamples || total <= previous)
     {
       break;
     }
     previous = total;
   }
-  this->Resolver->ResolveCounts(job.Target, job.Region, true);
+  this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
+  for (const penumbra::TexelRectangle& lit : Subtract(job.Resolved, shaded))
+  {
+    this->Resolver->ResolveUniform(job.Target, job.Region, lit, 1.0f);
+  }
   return true;
+}
+
+bool vtkRadianceBaker::BakeFromKept(
+  Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded)
+{
+  const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  KeptLight& kept = (*job.Wanted.Kept)[light];
+  vtkRadianceResolver::Options options = this->GetOptions(job);
+  options.Kept = &kept.Shares;
+  const bool isNew = kept.Shares.Stored.IsEmpty();
+  const int halo = options.Reconstruction ? vtkRadianceResolver::GetReconstructionHalo() : 0;
+  const penumbra::TexelRectangle needed =
+    pair.Shaded.Grown(halo).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+  const auto bytes = static_cast<std::size_t>(kept.Shares.Stored.Union(needed).GetArea()) *
+    vtkRadianceResolver::GetKeptBytesPerTexel(*job.Plan.Lights[light]);
+  // New shares are kept of whole bakes alone, and all only while there is room.
+  if (bytes > job.KeptBytes ||
+    (isNew ? job.Resolved != penumbra::WholeRectangle(job.Plan.Texels)
+           : !kept.Shares.Stored.Holds(needed) && !kept.Shares.Extend(needed)))
+  {
+    kept = KeptLight();
+    return false;
+  }
+  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
+        isNew ? job.Resolved : shaded, pair.Shaded, options))
+  {
+    kept = KeptLight();
+    return false;
+  }
+  job.KeptBytes -= bytes;
+  const penumbra::TexelRectangle stale = isNew ? needed : kept.Stale.Intersection(needed);
+  const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
+  if (!stale.IsEmpty() &&
+    (!this->Resolver->SetSamples(samples) ||
+      !this->DrawMasks(job, light, samples, stale, false,
+        [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
+        { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); })))
+  {
+    kept = KeptLight();
+    return false;
+  }
+  kept.Stale = {};
+  this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
+  return true;
+}
+
+void vtkRadianceBaker::ReleaseGraphicsResources()
+{
+  this->Resolver->ReleaseGraphicsResources();
+  this->Masks->ReleaseGraphicsResources();
+  this->Geometry->ReleaseGraphicsResources();
+  this->Occluders.Clear();
 }
 
 void vtkRadianceBaker::PrintSelf(ostream& os, vtkIndent indent)

@@ -4,20 +4,22 @@
  * @class vtkRadianceBaker
  * @brief bakes receivers, from plan to texture
  *
- * For each receiver: its frame, the lights in front of it, what each needs (penumbra::PlanEffect),
- * the occluders between them; then, light by light, masks are drawn (vtkVisibilityMask) and
- * resolved (vtkRadianceResolver) into one texture. The view's pass and the RadianceMap filter both
- * bake by this class, so that the same scene gives the same texels, bit for bit.
+ * For each receiver: what each light needs (penumbra::PlanReceiver); then, light by light, masks
+ * are drawn (vtkVisibilityMask) and resolved (vtkRadianceResolver) into one texture. The view's
+ * pass and the RadianceMap filter both bake by this class, so that the same scene gives the same
+ * texels, bit for bit; whether a receiver is baked at once or in parts changes no bit either.
  *
- * Nothing is read back, but for ErrorTolerance. Masks are drawn in bands of rows of at most
- * MaximumMaskBytes.
+ * Nothing is read back, but for ErrorTolerance. Masks cover what shadows can reach, and are drawn
+ * in bands of rows of at most MaximumMaskBytes.
  */
 #ifndef vtkRadianceBaker_h
 #define vtkRadianceBaker_h
 
 #include "EffectPlanner.h"
+#include "OccluderSelector.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ShadowScene.h"
+#include "TexelRectangle.h"
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkRadianceResolver.h" // for its Options
@@ -47,24 +49,35 @@ public:
   std::size_t GetMaximumMaskBytes() const { return this->MaximumMaskBytes; }
   ///@}
 
+  /// What was done for one light on a receiver.
+  struct PairReport
+  {
+    penumbra::Effect Effect = penumbra::Effect::None;
+    std::string Reason;        ///< of the effect
+    int LightSamples = 0;      ///< that were drawn; 0 where none were needed
+    std::size_t Texels = 0;    ///< that masks were drawn for
+    std::size_t Triangles = 0; ///< that could block the light, of SceneTriangles
+    std::size_t SceneTriangles = 0;
+    double Milliseconds = 0.0; ///< until OpenGL had finished
+    std::size_t Bytes = 0;     ///< of masks and of what is between them and the texture
+  };
+
   /// What was done for one receiver.
   struct Report
   {
     /// Index into the scene's receivers.
     std::size_t Receiver = 0;
     /// Of each light of the scene, in the scene's order.
-    std::vector<penumbra::Effect> Effects;
-    /// Of each light: the samples that were drawn; 0 where none were needed.
-    std::vector<int> LightSamples;
+    std::vector<PairReport> Pairs;
     /// The property that decided how many samples were taken: "LightSamples",
     /// "SolidAnglePerSample", "ErrorTolerance" or "MaximumLightSamples".
     std::string StoppedBy;
-    /// Of each light: the triangles that could block it.
-    std::vector<std::size_t> Triangles;
     /// Bytes of masks and textures at their peak, before any is made to be shown.
     std::size_t PeakBytes = 0;
     /// Seconds until OpenGL had finished.
     double Seconds = 0.0;
+    /// False, after vtkErrorMacro, if OpenGL refused something: the texels are not to be used.
+    bool IsComplete = false;
   };
 
   /**
@@ -76,6 +89,48 @@ public:
     const std::vector<std::size_t>& receivers, vtkOpenGLRenderWindow* window,
     vtkRadianceTexture* texture);
 
+  /// The report of a receiver for which nothing has been done yet but its plan.
+  static Report MakeReport(
+    const penumbra::ReceiverPlan& plan, const penumbra::ShadowScene& scene, std::size_t receiver);
+
+  /// What is kept of a light between bakes of a receiver.
+  struct KeptLight
+  {
+    vtkRadianceResolver::KeptShares Shares;
+    penumbra::TexelRectangle Stale; ///< of the shares: what has to be drawn anew
+  };
+
+  /// How much of a receiver is baked, and how.
+  struct Part
+  {
+    penumbra::TexelRectangle Rectangle; ///< of the receiver's texels
+    int MostSamples = 0; ///< of each light; 0: as many as the receiver's settings ask
+    /// Of each light of the scene; nullptr: nothing is kept. Lights with shares are not drawn, but
+    /// for what is stale; others leave theirs if they fit into KeptBytes.
+    std::vector<KeptLight>* Kept = nullptr;
+    std::size_t KeptBytes = 0;
+    /// What masks may take together with what is kept: bands of them get lower for it.
+    std::size_t MaskAndKeptBytes = 0;
+  };
+
+  ///@{
+  /**
+   * For those who bake in parts: take up a scene, which is kept by reference; plan one of its
+   * receivers; bake a part of it into a region of `texture`, where the rest of the region stays as
+   * it is. `window` must be current. Receivers with an ErrorTolerance are baked whole.
+   */
+  void SetScene(const penumbra::ShadowScene& scene);
+  penumbra::ReceiverPlan Plan(std::size_t receiver);
+  Report BakePart(const penumbra::ReceiverPlan& plan, std::size_t receiver,
+    vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture, std::size_t region,
+    const Part& part);
+  ///@}
+
+  /**
+   * Free what bakes share. The window must be current.
+   */
+  void ReleaseGraphicsResources();
+
 protected:
   vtkRadianceBaker();
   ~vtkRadianceBaker() override;
@@ -85,20 +140,26 @@ private:
   void operator=(const vtkRadianceBaker&) = delete;
 
   struct Job;
-  Report BakeReceiver(const penumbra::ShadowScene& scene, std::size_t receiver,
-    vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture, std::size_t region);
+  bool BakeReceiver(Job& job, vtkRadianceTexture* texture, std::size_t region);
   bool BakeLights(Job& job);
   bool BakeLight(Job& job, std::size_t light, int count);
+  bool BakeShaded(Job& job, std::size_t light, int count);
+  bool BakeFromKept(Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded);
+  void SelectOccluders(Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
   /// ErrorTolerance: more samples for the lights, until they have enough of them.
   bool RefineLights(Job& job);
   bool RefineLight(Job& job, std::size_t light, double allowed, vtkRadianceTexture* scratch);
-  /// Draws masks in bands of rows and calls use(firstRow, lastRow, maskFirstRow) for each.
+  /// Draws masks in bands of the rectangle's rows, with what GetMaskRectangle() adds around them if
+  /// `withHalo`, and calls use(band, maskFirstTexel) for each.
   template <typename Use>
-  bool DrawMasks(Job& job, const std::vector<penumbra::LightSample>& samples, const Use& use);
+  bool DrawMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
+    const penumbra::TexelRectangle& rectangle, bool withHalo, const Use& use);
   vtkRadianceResolver::Options GetOptions(const Job& job) const;
 
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
-  vtkNew<vtkOccluderGeometry> Occluders;
+  const penumbra::ShadowScene* Scene = nullptr;
+  penumbra::OccluderSelector Occluders;
+  vtkNew<vtkOccluderGeometry> Geometry;
   vtkNew<vtkVisibilityMask> Masks;
   vtkNew<vtkRadianceResolver> Resolver;
 };

@@ -32,15 +32,53 @@ constexpr int ReconstructionRadius = 3;
 
 } // namespace
 
+std::size_t vtkRadianceResolver::KeptShares::GetBytes() const
+{
+  std::size_t bytes = 0;
+  for (const vtkSmartPointer<vtkVisibilityShare>& share : this->Shares)
+  {
+    bytes += share ? share->GetBytes() : 0;
+  }
+  return bytes;
+}
+
+void vtkRadianceResolver::KeptShares::Release()
+{
+  for (vtkSmartPointer<vtkVisibilityShare>& share : this->Shares)
+  {
+    if (share)
+    {
+      share->ReleaseGraphicsResources();
+    }
+    share = nullptr;
+  }
+  this->Stored = {};
+}
+
+bool vtkRadianceResolver::KeptShares::Extend(const penumbra::TexelRectangle& needed)
+{
+  const penumbra::TexelRectangle extended = this->Stored.Union(needed);
+  bool isDone = true;
+  for (const vtkSmartPointer<vtkVisibilityShare>& share : this->Shares)
+  {
+    isDone = isDone && (!share || share->Extend(this->Stored, extended));
+  }
+  this->Stored = extended;
+  return isDone;
+}
+
 vtkRadianceResolver::vtkRadianceResolver() = default;
 vtkRadianceResolver::~vtkRadianceResolver() = default;
 
 bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const penumbra::LightShape& seen, const glm::ivec2& texels, const Options& options)
+  const penumbra::LightShape& seen, const glm::ivec2& texels,
+  const penumbra::TexelRectangle& resolved, const penumbra::TexelRectangle& shaded,
+  const Options& options)
 {
   this->Window = window;
   this->Chosen = options;
   this->Texels = texels;
+  this->Shaded = shaded;
   this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
   this->ShareCount = seen.HasOneHue() ? 1 : 3;
   std::string source = vtkRadianceResolveFS;
@@ -52,13 +90,51 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
     vtkErrorMacro("The shader that resolves shadows did not compile.");
     return false;
   }
-  const int shareRows = options.InBatches ? texels.y : this->StripRows + 2 * this->GetHalo();
-  bool isReady = this->ClosedForm->Begin(window, frame, seen, texels, this->StripRows);
+  const glm::ivec2 strip(resolved.GetSize().x, this->StripRows);
+  if (!this->ClosedForm->Begin(window, frame, seen, texels, strip))
+  {
+    return false;
+  }
+  this->Stored = this->GetMaskRectangle(resolved);
+  if (this->Stored.IsEmpty())
+  {
+    return true;
+  }
+  glm::ivec2 size = this->Stored.GetSize();
+  if (options.Kept)
+  {
+    if (options.Kept->Stored.IsEmpty())
+    {
+      options.Kept->Stored = this->Stored;
+    }
+    this->Stored = options.Kept->Stored;
+    size = this->Stored.GetSize();
+  }
+  else if (!options.InBatches)
+  {
+    size.y = std::min(size.y, this->StripRows + 2 * this->GetHalo());
+  }
+  bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady = isReady && this->Share[i]->Begin(window, frame, seen, texels, shareRows);
+    isReady = isReady && this->GetShare(i)->Begin(window, frame, seen, texels, size);
   }
   return isReady;
+}
+
+vtkVisibilityShare* vtkRadianceResolver::GetShare(int index)
+{
+  const auto i = static_cast<std::size_t>(index);
+  if (!this->Chosen.Kept)
+  {
+    return this->Share[i];
+  }
+  vtkSmartPointer<vtkVisibilityShare>& kept = this->Chosen.Kept->Shares[i];
+  if (!kept)
+  {
+    kept = vtkSmartPointer<vtkVisibilityShare>::New();
+  }
+  return kept;
 }
 
 bool vtkRadianceResolver::SetSamples(
@@ -67,7 +143,8 @@ bool vtkRadianceResolver::SetSamples(
   bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady = isReady && this->Share[i]->SetSamples(samples, this->GetChannels(i), previousCount);
+    isReady =
+      isReady && this->GetShare(i)->SetSamples(samples, this->GetChannels(i), previousCount);
   }
   return isReady;
 }
@@ -84,76 +161,109 @@ int vtkRadianceResolver::GetHalo() const
   return this->Chosen.Reconstruction ? ReconstructionRadius : 0;
 }
 
-void vtkRadianceResolver::ResolveUnblocked(
-  vtkRadianceTexture* target, const vtkRadianceTexture::Region& region)
+int vtkRadianceResolver::GetReconstructionHalo()
 {
-  for (int row = 0; row < this->Texels.y; row += this->StripRows)
+  return ReconstructionRadius;
+}
+
+std::size_t vtkRadianceResolver::GetKeptBytesPerTexel(const penumbra::LightShape& light)
+{
+  return (light.HasOneHue() ? 1 : 3) * sizeof(glm::vec2);
+}
+
+penumbra::TexelRectangle vtkRadianceResolver::GetMaskRectangle(
+  const penumbra::TexelRectangle& resolved) const
+{
+  const int halo = this->GetHalo();
+  return this->Shaded.Grown(halo)
+    .Intersection(resolved.Grown(halo))
+    .Intersection(penumbra::WholeRectangle(this->Texels));
+}
+
+template <typename Use>
+void vtkRadianceResolver::ForEachStrip(const penumbra::TexelRectangle& rectangle, const Use& use)
+{
+  for (int row = rectangle.Low.y; row < rectangle.High.y && !rectangle.IsEmpty();
+       row += this->StripRows)
   {
-    const int end = std::min(row + this->StripRows, this->Texels.y);
-    this->ResolveStrip(target, region, row, end, Shares::None, true);
+    use(rectangle.Rows(row, std::min(row + this->StripRows, rectangle.High.y)));
   }
+}
+
+void vtkRadianceResolver::ResolveUniform(vtkRadianceTexture* target,
+  const vtkRadianceTexture::Region& region, const penumbra::TexelRectangle& rectangle, float share)
+{
+  StripShares shares;
+  shares.Uniform = share;
+  this->ForEachStrip(rectangle,
+    [&](const penumbra::TexelRectangle& strip)
+    { this->ResolveStrip(target, region, strip, shares, true); });
 }
 
 void vtkRadianceResolver::ResolveMasks(vtkRadianceTexture* target,
-  const vtkRadianceTexture::Region& region, int firstRow, int lastRow, vtkVisibilityMask* masks,
-  int maskFirstRow)
+  const vtkRadianceTexture::Region& region, const penumbra::TexelRectangle& rectangle,
+  vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel)
 {
-  for (int row = firstRow; row < lastRow; row += this->StripRows)
-  {
-    const int end = std::min(row + this->StripRows, lastRow);
-    const int first = std::max(row - this->GetHalo(), 0);
-    const int last = std::min(end + this->GetHalo(), this->Texels.y);
-    for (int i = 0; i < this->ShareCount; ++i)
+  StripShares shares;
+  shares.HasTextures = true;
+  this->ForEachStrip(rectangle,
+    [&](const penumbra::TexelRectangle& strip)
     {
-      this->Share[i]->Count(masks, maskFirstRow, first, last, 0);
-    }
-    this->ResolveStrip(target, region, row, end, Shares::Strip, true);
-  }
+      const penumbra::TexelRectangle around = this->GetMaskRectangle(strip);
+      shares.FirstTexel = around.Low;
+      for (int i = 0; i < this->ShareCount; ++i)
+      {
+        this->GetShare(i)->Count(masks, maskFirstTexel, around, around.Low);
+      }
+      this->ResolveStrip(target, region, strip, shares, true);
+    });
 }
 
-void vtkRadianceResolver::CountMasks(
-  vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow)
+void vtkRadianceResolver::CountMasks(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
+  const penumbra::TexelRectangle& rectangle)
 {
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    this->Share[i]->Count(masks, maskFirstRow, firstRow, lastRow, firstRow);
+    this->GetShare(i)->Count(masks, maskFirstTexel, rectangle, this->Stored.Low);
   }
 }
 
-void vtkRadianceResolver::ResolveCounts(
-  vtkRadianceTexture* target, const vtkRadianceTexture::Region& region, bool add)
+void vtkRadianceResolver::ResolveCounts(vtkRadianceTexture* target,
+  const vtkRadianceTexture::Region& region, const penumbra::TexelRectangle& rectangle, bool add)
 {
-  for (int row = 0; row < this->Texels.y; row += this->StripRows)
-  {
-    const int end = std::min(row + this->StripRows, this->Texels.y);
-    this->ResolveStrip(target, region, row, end, Shares::All, add);
-  }
+  StripShares shares;
+  shares.HasTextures = true;
+  shares.FirstTexel = this->Stored.Low;
+  this->ForEachStrip(rectangle,
+    [&](const penumbra::TexelRectangle& strip)
+    { this->ResolveStrip(target, region, strip, shares, add); });
 }
 
 void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
-  const vtkRadianceTexture::Region& region, int firstRow, int lastRow, Shares shares, bool add)
+  const vtkRadianceTexture::Region& region, const penumbra::TexelRectangle& strip,
+  const StripShares& shares, bool add)
 {
-  this->ClosedForm->Draw(firstRow, lastRow);
+  this->ClosedForm->Draw(strip);
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
   const penumbra::ScopedTexture closedForm(
     state, program, "closedForm", GL_TEXTURE_2D, this->ClosedForm->GetTexture()->GetHandle());
-  program->SetUniformi("firstRow", firstRow);
+  program->SetUniform2i("firstTexel", &strip.Low.x);
   program->SetUniformi("reconstruction", this->Chosen.Reconstruction ? 1 : 0);
-  program->SetUniformi("hasShares", shares == Shares::None ? 0 : 1);
-  program->SetUniformi(
-    "sharesFirstRow", shares == Shares::Strip ? std::max(firstRow - this->GetHalo(), 0) : 0);
+  program->SetUniformi("hasShares", shares.HasTextures ? 1 : 0);
+  program->SetUniformf("uniformShare", shares.Uniform);
+  program->SetUniform2i("sharesFirstTexel", &shares.FirstTexel.x);
   program->SetUniform2i("regionOrigin", &region.Origin.x);
   program->SetUniform2i("regionSize", &region.Size.x);
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
-  target->BindAsTarget(region, firstRow, lastRow, add);
+  target->BindAsTarget(region, strip, add);
   constexpr const char* samplers[] = { "shares", "greenShares", "blueShares" };
   std::vector<std::unique_ptr<penumbra::ScopedTexture>> textures;
   for (int i = 0; i < this->ShareCount; ++i)
   {
     textures.push_back(std::make_unique<penumbra::ScopedTexture>(state, program, samplers[i],
-      GL_TEXTURE_2D, shares == Shares::None ? 0 : this->Share[i]->GetTexture()->GetHandle()));
+      GL_TEXTURE_2D, shares.HasTextures ? this->GetShare(i)->GetTexture()->GetHandle() : 0));
   }
   penumbra::DrawFullScreenTriangle();
 }
@@ -161,9 +271,9 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
 std::size_t vtkRadianceResolver::GetBytes() const
 {
   std::size_t bytes = this->ClosedForm->GetTexture()->GetBytes();
-  for (int i = 0; i < this->ShareCount; ++i)
+  for (const vtkNew<vtkVisibilityShare>& share : this->Share)
   {
-    bytes += this->Share[i]->GetBytes();
+    bytes += share->GetBytes();
   }
   return bytes;
 }

@@ -6,12 +6,11 @@
  *
  * The closed form of the unoccluded light (vtkClosedForm) times the share of it that each texel
  * sees (vtkVisibilityShare), by vtkRadianceResolveFS.glsl. One instance serves one light on one
- * receiver at a time: Begin(), then
- * - nothing blocks: ResolveUnblocked();
- * - samples decide, all at once: SetSamples(), and ResolveMasks() for the rows whose masks have
- * been drawn;
- * - samples decide, in batches: SetSamples(), CountMasks() for all rows, and again; at last
- *   ResolveCounts().
+ * receiver at a time: Begin(), then ResolveUniform() for what no shadow reaches, and for the rest
+ * - samples at once: SetSamples(), and ResolveMasks() for the rows whose masks have been drawn;
+ * - samples in batches, or whose shares are to be kept: SetSamples(), CountMasks(), and again; at
+ *   last ResolveCounts();
+ * - shares that were kept: ResolveCounts().
  *
  * All is done in strips of rows, so that what the stages hand on takes little memory.
  */
@@ -20,18 +19,21 @@
 
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "vtkNew.h"                  // for vtkNew
+#include "TexelRectangle.h"
+#include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkRadianceTexture.h" // for its Region
+#include "vtkSmartPointer.h"    // for vtkSmartPointer
+#include "vtkVisibilityShare.h" // for shares that are kept
 #include "vtkWeakPointer.h"     // for vtkWeakPointer
 
+#include <array>  // for shares
 #include <vector> // for samples
 
 class vtkClosedForm;
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkVisibilityMask;
-class vtkVisibilityShare;
 
 class PENUMBRARENDERING_EXPORT vtkRadianceResolver : public vtkObject
 {
@@ -40,48 +42,85 @@ public:
   vtkTypeMacro(vtkRadianceResolver, vtkObject)
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * The shares of one light that outlast a bake: for light whose radiance changes, and for the part
+   * of a receiver that no change reaches.
+   */
+  struct KeptShares
+  {
+    std::array<vtkSmartPointer<vtkVisibilityShare>, 3> Shares; ///< as many as the light needs
+    penumbra::TexelRectangle Stored;                           ///< of the receiver's texels
+
+    std::size_t GetBytes() const;
+    void Release();
+    /// Make room for others, too; these are wholly seen.
+    bool Extend(const penumbra::TexelRectangle& needed);
+  };
+
   /// How a light is taken up.
   struct Options
   {
     glm::dvec3 Reflectance{ 1.0 };
-    bool InBatches = false;      ///< CountMasks() will be called, not ResolveMasks()
     bool Reconstruction = false; ///< shares are filtered across texels
+    bool InBatches = false;      ///< CountMasks() will be called, not ResolveMasks()
+    /// Where shares are kept; they are made here if there are none. Implies InBatches.
+    KeptShares* Kept = nullptr;
   };
 
   /**
    * Take up a light on a receiver of the given texels: `seen`, which is kept by reference, is the
-   * light's part in front of the receiver. False, after vtkErrorMacro, if OpenGL refuses.
+   * light's part in front of the receiver. `resolved` bounds the texels that will be asked for, and
+   * `shaded` is where samples decide. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-    const penumbra::LightShape& seen, const glm::ivec2& texels, const Options& options);
+    const penumbra::LightShape& seen, const glm::ivec2& texels,
+    const penumbra::TexelRectangle& resolved, const penumbra::TexelRectangle& shaded,
+    const Options& options);
 
   /**
    * The samples of the light whose masks will come: see vtkVisibilityShare.
    */
   bool SetSamples(const std::vector<penumbra::LightSample>& samples, int previousCount = 0);
 
-  /**
-   * The rows beside those that are resolved whose masks are needed, too.
-   */
-  int GetHalo() const;
-
   ///@{
   /**
-   * Add the light to the rows [firstRow, lastRow) of a region of `target`: without samples; from
-   * masks whose row 0 is the receiver's row `maskFirstRow`; from what was counted. The caller saves
-   * and restores vtkOpenGLState around it.
+   * The texels around those that are resolved whose masks are needed, too; with Reconstruction.
    */
-  void ResolveUnblocked(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region);
-  void ResolveMasks(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region,
-    int firstRow, int lastRow, vtkVisibilityMask* masks, int maskFirstRow);
-  void ResolveCounts(
-    vtkRadianceTexture* target, const vtkRadianceTexture::Region& region, bool add);
+  int GetHalo() const;
+  static int GetReconstructionHalo();
   ///@}
 
   /**
-   * Count the masks of the rows [firstRow, lastRow), which begin with row `maskFirstRow`.
+   * The bytes of a texel's shares of a light.
    */
-  void CountMasks(vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow);
+  static std::size_t GetKeptBytesPerTexel(const penumbra::LightShape& light);
+
+  /**
+   * The texels whose masks are needed to resolve some others.
+   */
+  penumbra::TexelRectangle GetMaskRectangle(const penumbra::TexelRectangle& resolved) const;
+
+  ///@{
+  /**
+   * Add the light to a rectangle of the receiver's texels in a region of `target`: where all of
+   * them see the same share of it, 0 or 1; from masks whose texel (0, 0) is the receiver's
+   * `maskFirstTexel`; from what was counted. The caller saves and restores vtkOpenGLState around
+   * it.
+   */
+  void ResolveUniform(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region,
+    const penumbra::TexelRectangle& rectangle, float share);
+  void ResolveMasks(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region,
+    const penumbra::TexelRectangle& rectangle, vtkVisibilityMask* masks,
+    const glm::ivec2& maskFirstTexel);
+  void ResolveCounts(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region,
+    const penumbra::TexelRectangle& rectangle, bool add);
+  ///@}
+
+  /**
+   * Count the masks of a rectangle of texels.
+   */
+  void CountMasks(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
+    const penumbra::TexelRectangle& rectangle);
 
   /**
    * The bytes that the textures between the stages take.
@@ -105,20 +144,26 @@ private:
   /// alone.
   glm::dvec3 GetChannels(int share) const;
 
-  /// What a strip's shares are in.
-  enum class Shares
+  /// Where the shares of a strip are.
+  struct StripShares
   {
-    None,
-    Strip, ///< of the strip and its halo alone
-    All
+    float Uniform = 1.0f; ///< without textures
+    bool HasTextures = false;
+    glm::ivec2 FirstTexel{ 0 }; ///< the receiver's texel that is (0, 0) of the textures
   };
   void ResolveStrip(vtkRadianceTexture* target, const vtkRadianceTexture::Region& region,
-    int firstRow, int lastRow, Shares shares, bool add);
+    const penumbra::TexelRectangle& strip, const StripShares& shares, bool add);
+  /// Calls use(strip) for each strip of the rectangle.
+  template <typename Use>
+  void ForEachStrip(const penumbra::TexelRectangle& rectangle, const Use& use);
+  vtkVisibilityShare* GetShare(int index);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkShaderProgram* Program = nullptr; ///< the window's
   Options Chosen;
   glm::ivec2 Texels{ 1 };
+  penumbra::TexelRectangle Shaded;
+  penumbra::TexelRectangle Stored; ///< of the textures of CountMasks()
   int StripRows = 1;
   /// The components whose shares differ, each with its own: 3, if a light's cells differ in hue.
   int ShareCount = 1;

@@ -102,7 +102,7 @@ bool vtkRadianceTexture::PlaceRegions(const std::vector<glm::ivec2>& sizes, int 
 }
 
 bool vtkRadianceTexture::Allocate(
-  vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes)
+  vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance)
 {
   this->ReleaseGraphicsResources();
   this->Window = window;
@@ -115,41 +115,45 @@ bool vtkRadianceTexture::Allocate(
     return false;
   }
   if (!AllocateFloats(this->Irradiance, window, this->Size, 4) ||
-    !AllocateFloats(this->Variance, window, this->Size, 1))
+    (withVariance && !AllocateFloats(this->Variance, window, this->Size, 1)))
   {
     vtkErrorMacro("OpenGL refused a texture of " << this->Size.x << " x " << this->Size.y
                                                  << " texels. Use a larger TexelSize.");
     this->ReleaseGraphicsResources();
     return false;
   }
-
-  this->HasVariance = true;
-
-  this->Clear({ glm::ivec2(0), this->Size }); // the gutter around it is cut off
+  this->HasVariance = withVariance;
+  // The gutter around it is cut off.
+  this->Clear({ glm::ivec2(0), this->Size }, penumbra::WholeRectangle(this->Size));
   return true;
 }
 
-void vtkRadianceTexture::Clear(const Region& region)
+void vtkRadianceTexture::Clear(const Region& region, const penumbra::TexelRectangle& rectangle)
 {
   vtkOpenGLState* state = this->Window->GetState();
   const vtkOpenGLState::ScopedglClearColor savedColor(state);
-  this->BindAsTarget(region, 0, region.Size.y, false);
+  this->BindAsTarget(region, rectangle, false);
   state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
 }
 
-void vtkRadianceTexture::BindAsTarget(const Region& region, int firstRow, int lastRow, bool add)
+void vtkRadianceTexture::BindAsTarget(
+  const Region& region, const penumbra::TexelRectangle& rectangle, bool add)
 {
   vtkOpenGLState* state = this->Window->GetState();
   this->Framebuffer->SetContext(this->Window);
   this->Framebuffer->Bind(GL_FRAMEBUFFER);
   this->Framebuffer->AddColorAttachment(0, this->Irradiance);
-  this->Framebuffer->AddColorAttachment(1, this->Variance);
-  this->Framebuffer->ActivateDrawBuffers(2);
+  if (this->HasVariance)
+  {
+    this->Framebuffer->AddColorAttachment(1, this->Variance);
+  }
+  const int count = this->HasVariance ? 2 : 1;
+  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(count));
   // vtkOpenGLState takes the draw buffers of the framebuffer that was bound before for those of
   // this one, and may not have set them.
   constexpr GLenum buffers[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
-  glDrawBuffers(2, buffers);
+  glDrawBuffers(count, buffers);
 
   for (unsigned int capability : { GL_DEPTH_TEST, GL_CULL_FACE })
   {
@@ -161,13 +165,18 @@ void vtkRadianceTexture::BindAsTarget(const Region& region, int firstRow, int la
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglViewport(0, 0, this->Size.x, this->Size.y);
   state->vtkglEnable(GL_SCISSOR_TEST);
-  const int bottom = firstRow == 0 ? -this->Gutter : firstRow;
-  const int top = lastRow == region.Size.y ? lastRow + this->Gutter : lastRow;
-  state->vtkglScissor(region.Origin.x - this->Gutter, region.Origin.y + bottom,
-    region.Size.x + 2 * this->Gutter, top - bottom);
+  penumbra::TexelRectangle padded = rectangle;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    padded.Low[axis] -= rectangle.Low[axis] == 0 ? this->Gutter : 0;
+    padded.High[axis] += rectangle.High[axis] == region.Size[axis] ? this->Gutter : 0;
+  }
+  const glm::ivec2 origin = region.Origin + padded.Low, size = padded.GetSize();
+  state->vtkglScissor(origin.x, origin.y, size.x, size.y);
 }
 
-void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& region, int factor)
+void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
+  const Region& region, const penumbra::TexelRectangle& rectangle, int factor)
 {
   vtkShaderProgram* program =
     penumbra::ReadyFullScreenProgram(this->Window, vtkRadianceDownsampleFS);
@@ -176,12 +185,13 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& regi
     vtkErrorMacro("The shader that filters radiance textures did not compile.");
     return;
   }
-  this->BindAsTarget(region, 0, region.Size.y, false);
+  this->BindAsTarget(region, rectangle, false);
   fine->Irradiance->Activate();
   fine->Variance->Activate();
   program->SetUniformi("radiance", fine->Irradiance->GetTextureUnit());
   program->SetUniformi("variance", fine->Variance->GetTextureUnit());
   program->SetUniformi("factor", factor);
+  program->SetUniform2i("fineFirst", &fineFirst.x);
   program->SetUniform2i("regionOrigin", &region.Origin.x);
   program->SetUniform2i("regionSize", &region.Size.x);
   penumbra::DrawFullScreenTriangle();
@@ -231,12 +241,6 @@ void vtkRadianceTexture::ReleaseMipmaps()
   this->Irradiance->ReleaseGraphicsResources(this->Window);
   this->Irradiance = copy;
   this->HasMipmaps = false;
-}
-
-void vtkRadianceTexture::ReleaseVariance()
-{
-  this->Variance->ReleaseGraphicsResources(this->Window);
-  this->HasVariance = false;
 }
 
 vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)

@@ -21,7 +21,7 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 #include "vtkWeakPointer.h"  // for vtkWeakPointer
 
-#include "Vectors.h"
+#include "TexelRectangle.h"
 #include <vector> // for texels
 
 class vtkOpenGLFramebufferObject;
@@ -50,10 +50,11 @@ public:
   };
 
   /**
-   * Make room for receivers of the given sizes in texels, all black. False, after vtkErrorMacro, if
-   * they do not fit into one texture or OpenGL refuses.
+   * Make room for receivers of the given sizes in texels, all black; with or without variance.
+   * False, after vtkErrorMacro, if they do not fit into one texture or OpenGL refuses.
    */
-  bool Allocate(vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes);
+  bool Allocate(
+    vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance = true);
 
   /**
    * The receivers' places, in the order of their sizes in Allocate().
@@ -71,22 +72,24 @@ public:
   const glm::ivec2& GetSize() const { return this->Size; }
 
   /**
-   * Make the rows [firstRow, lastRow) of a region, with the gutter beside them (and below the first
-   * and above the last row of the region), the target of drawing, with two outputs:
-   * vtkRadianceResolveFS.glsl and vtkRadianceDownsampleFS.glsl say what. With `add`, what is drawn
-   * adds to what is there. The caller saves and restores vtkOpenGLState around it.
+   * Make a rectangle of a region's texels, with the gutter beyond what of the region's border is in
+   * it, the target of drawing, with two outputs: vtkRadianceResolveFS.glsl and
+   * vtkRadianceDownsampleFS.glsl say what. With `add`, what is drawn adds to what is there. The
+   * caller saves and restores vtkOpenGLState around it.
    */
-  void BindAsTarget(const Region& region, int firstRow, int lastRow, bool add);
+  void BindAsTarget(const Region& region, const penumbra::TexelRectangle& rectangle, bool add);
 
   /**
-   * Make a region black again, with its gutter.
+   * Make a rectangle of a region's texels black again, with the gutter beyond it.
    */
-  void Clear(const Region& region);
+  void Clear(const Region& region, const penumbra::TexelRectangle& rectangle);
 
   /**
-   * Fill a region from a texture that is `factor` times finer and holds one receiver.
+   * Fill a rectangle of a region from a texture that is `factor` times finer, whose own texel (0,
+   * 0) is `fineFirst` of the receiver's finer ones.
    */
-  void Downsample(vtkRadianceTexture* fine, const Region& region, int factor);
+  void Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
+    const penumbra::TexelRectangle& rectangle, int factor);
 
   /**
    * Make the mip levels of the irradiance, after the last region is filled, to show it.
@@ -109,12 +112,7 @@ public:
   std::size_t CountTexels(bool withMipmaps) const;
 
   /**
-   * Free the variance, which is not needed to show the texture.
-   */
-  void ReleaseVariance();
-
-  /**
-   * Read a region back; without variance, if that has been released.
+   * Read a region back; without variance, if there is none.
    */
   Texels Download(const Region& region);
 

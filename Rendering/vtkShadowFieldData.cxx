@@ -31,6 +31,9 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("ErrorTolerance", settings.ErrorTolerance);
   visit("MaximumLightSamples", settings.MaximumLightSamples);
   visit("Reconstruction", settings.Reconstruction);
+  visit("Planner", settings.Planner);
+  visit("PlannerTolerance", settings.PlannerTolerance);
+  visit("HardPenumbra", settings.HardPenumbra);
 }
 
 template <typename Settings, typename Visitor>

@@ -26,7 +26,10 @@
 #include "vtkCompositePolyDataMapper.h"
 #endif
 
+#include <algorithm>
 #include <cstring>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -36,7 +39,7 @@ namespace
 {
 
 /// A visible actor of polygonal data, a prop of its own or a part of an assembly.
-struct Part
+struct VisitedPart
 {
   vtkActor* Actor;
   bool IsSurface; ///< what is drawn as lines or points, or wholly transparent, blocks and receives
@@ -109,7 +112,7 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
         if (vtkDataObject* data = GetMappedData(actor->GetMapper()))
         {
           visit(prop,
-            Part{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data,
+            VisitedPart{ actor, IsDrawnAsSurface(actor), node->GetMatrix(), data,
               GetAttributes(actor->GetMapper()) });
         }
       }
@@ -118,7 +121,7 @@ void VisitParts(vtkRenderer* renderer, Visitor&& visit)
 }
 
 /// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
-bool MayReceive(vtkProp* prop, const Part& part, bool onlyDesignated)
+bool MayReceive(vtkProp* prop, const VisitedPart& part, bool onlyDesignated)
 {
   vtkInformation* keys = prop->GetPropertyKeys();
   return prop == part.Actor && part.IsSurface &&
@@ -166,7 +169,7 @@ void AppendData(std::vector<std::uint64_t>& signature, vtkDataObject* data,
 }
 
 /// Everything about the part that a bake depends on.
-void AppendPart(std::vector<std::uint64_t>& signature, const Part& part, bool mayReceive)
+void AppendPart(std::vector<std::uint64_t>& signature, const VisitedPart& part, bool mayReceive)
 {
   Append(signature, part.Actor);
   Append(signature, part.IsSurface);
@@ -180,52 +183,73 @@ void AppendPart(std::vector<std::uint64_t>& signature, const Part& part, bool ma
 
 } // namespace
 
-vtkShadowSceneCollector::vtkShadowSceneCollector()
-  : Builder(vtkSmartPointer<vtkShadowSceneBuilder>::New())
-{
-}
-
+vtkShadowSceneCollector::vtkShadowSceneCollector() = default;
 vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
-
-const penumbra::ShadowScene& vtkShadowSceneCollector::GetScene() const
-{
-  return this->Builder->GetScene();
-}
 
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
-  std::vector<std::uint64_t> signature;
+  std::vector<Part> parts;
   VisitParts(renderer,
-    [&](vtkProp* prop, const Part& part)
-    { AppendPart(signature, part, MayReceive(prop, part, onlyDesignated)); });
-  if (signature == this->Signature)
+    [&](vtkProp* prop, const VisitedPart& visited)
+    {
+      Part& part = parts.emplace_back();
+      AppendPart(part.Seen, visited, MayReceive(prop, visited, onlyDesignated));
+      part.Prop = prop;
+    });
+  if (std::equal(parts.begin(), parts.end(), this->Parts.begin(), this->Parts.end(),
+        [](const Part& a, const Part& b) { return a.Seen == b.Seen; }))
   {
     return false;
   }
-  this->Signature = std::move(signature);
-  const auto earlier = this->Builder;
-  this->Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
-  this->Builder->SetEarlierMessages(earlier->GetMessages());
-  this->ReceiverProps.clear();
+  std::map<Signature, const Part*> before;
+  std::map<std::uint64_t, std::set<std::string>> messages; // by the actor
+  for (const Part& part : this->Parts)
+  {
+    before.emplace(part.Seen, &part);
+    messages[part.Seen.front()] = part.Builder->GetMessages();
+  }
+  std::size_t i = 0;
   VisitParts(renderer,
-    [&](vtkProp* prop, const Part& part)
+    [&](vtkProp* prop, const VisitedPart& visited)
     {
-      const std::size_t first = this->GetScene().Receivers.size();
-      const int roles = vtkShadowSceneBuilder::Light |
-        (part.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
-        (MayReceive(prop, part, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
-      this->Builder->AddData(part.Data, part.Matrix, roles, Describe(part.Actor), part.Attributes);
-      if (first < this->GetScene().Receivers.size())
+      Part& part = parts[i++];
+      const auto same = before.find(part.Seen);
+      if (same != before.end())
       {
-        ReceiverProp& entry = this->ReceiverProps.emplace_back();
-        entry.Prop = prop;
-        for (std::size_t i = first; i < this->GetScene().Receivers.size(); ++i)
-        {
-          entry.Receivers.push_back(i);
-        }
+        part = *same->second;
+        return;
       }
+      const int roles = vtkShadowSceneBuilder::Light |
+        (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+        (MayReceive(prop, visited, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
+      part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
+      part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
+      part.Builder->AddData(
+        visited.Data, visited.Matrix, roles, Describe(visited.Actor), visited.Attributes);
     });
+  this->Parts = std::move(parts);
+  this->Assemble();
   return true;
+}
+
+void vtkShadowSceneCollector::Assemble()
+{
+  this->Scene = penumbra::ShadowScene();
+  this->ReceiverProps.clear();
+  for (const Part& part : this->Parts)
+  {
+    const std::size_t first = this->Scene.Receivers.size();
+    this->Scene.Append(part.Builder->GetScene());
+    if (first < this->Scene.Receivers.size())
+    {
+      ReceiverProp& entry = this->ReceiverProps.emplace_back();
+      entry.Prop = part.Prop;
+      for (std::size_t i = first; i < this->Scene.Receivers.size(); ++i)
+      {
+        entry.Receivers.push_back(i);
+      }
+    }
+  }
 }
 
 void vtkShadowSceneCollector::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,7 +6,7 @@
  *
  * All visible props count, also those outside the camera's view: their shadows may fall into it.
  * Update() remembers what it saw, so that it can tell whether anything that a bake depends on has
- * changed since.
+ * changed since. Surfaces of actors that have not changed are the same penumbra::SharedSurface.
  */
 #ifndef vtkShadowSceneCollector_h
 #define vtkShadowSceneCollector_h
@@ -48,7 +48,7 @@ public:
    */
   bool Update(vtkRenderer* renderer, bool onlyDesignated);
 
-  const penumbra::ShadowScene& GetScene() const;
+  const penumbra::ShadowScene& GetScene() const { return this->Scene; }
   const std::vector<ReceiverProp>& GetReceiverProps() const { return this->ReceiverProps; }
 
 protected:
@@ -59,9 +59,19 @@ private:
   vtkShadowSceneCollector(const vtkShadowSceneCollector&) = delete;
   void operator=(const vtkShadowSceneCollector&) = delete;
 
-  vtkSmartPointer<vtkShadowSceneBuilder> Builder;
+  using Signature = std::vector<std::uint64_t>;
+  /// What was made of one actor: it stays the same for as long as its signature does.
+  struct Part
+  {
+    Signature Seen;
+    vtkSmartPointer<vtkShadowSceneBuilder> Builder;
+    vtkWeakPointer<vtkProp> Prop;
+  };
+  void Assemble();
+
+  std::vector<Part> Parts; ///< in the order of the renderer's props
+  penumbra::ShadowScene Scene;
   std::vector<ReceiverProp> ReceiverProps;
-  std::vector<std::uint64_t> Signature;
 };
 
 #endif

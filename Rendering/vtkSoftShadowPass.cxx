@@ -4,8 +4,10 @@
 
 #include "vtkSoftShadowPass.h"
 
+#include "PlanTable.h"
 #include "ScreenMap.h"
 #include "vtkActor.h"
+#include "vtkBakedProp.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -48,16 +50,16 @@ namespace
 struct ShownProp
 {
   vtkWeakPointer<vtkProp> Prop;
-  std::vector<std::size_t> Receivers; ///< indices into the scene's
-  vtkSmartPointer<vtkRadianceTexture> Texture;
+  vtkSmartPointer<vtkBakedProp> Baked;
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
   bool IsMatte = false;
 
+  std::size_t CountReceivers() const { return this->Baked->GetEntries().size(); }
   std::size_t GetBytes() const
   {
-    return this->Texture->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
+    return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
   }
 };
 
@@ -87,26 +89,27 @@ void MakeShownTexture(
 {
   vtkOpenGLState* state = window->GetState();
   state->Push();
+  vtkRadianceTexture* texture = shown.Baked->GetTexture();
   if (shown.Shading == vtkSoftShadowPass::RADIANCE)
   {
     if (shown.Factors)
     {
       shown.Factors->ReleaseGraphicsResources();
     }
-    shown.Texture->GenerateMipmaps();
+    texture->GenerateMipmaps();
     shown.HasShownTexture = true;
   }
   else
   {
     std::vector<glm::dvec3> ambient;
-    for (const std::size_t receiver : shown.Receivers)
+    for (const vtkBakedProp::Entry& entry : shown.Baked->GetEntries())
     {
-      ambient.push_back(scene.Receivers[receiver].Settings.AmbientRadiance);
+      ambient.push_back(entry.Settings.Settings.AmbientRadiance);
     }
-    shown.Texture->ReleaseMipmaps();
+    texture->ReleaseMipmaps();
     shown.Factors = vtkSmartPointer<vtkShadowFactors>::New();
     shown.HasShownTexture =
-      shown.Factors->Make(window, shown.Texture, ambient, GetLargestFactor(scene, ambient));
+      shown.Factors->Make(window, texture, ambient, GetLargestFactor(scene, ambient));
   }
   state->Pop();
 }
@@ -139,6 +142,20 @@ bool AddVarying(std::string& vertexShader, const std::string& geometryShader)
 /// Uniforms that a receiver takes, in units of four floats, and what is left to VTK's own.
 constexpr int VectorsPerReceiver = 7;
 constexpr int VectorsOfVTK = 128;
+
+/// The prop's entry of before, taken out of there, or a new one.
+ShownProp TakeShown(std::vector<ShownProp>& before, vtkProp* prop)
+{
+  const auto entry = std::find_if(
+    before.begin(), before.end(), [prop](const ShownProp& shown) { return shown.Prop == prop; });
+  if (entry == before.end())
+  {
+    return { prop, vtkSmartPointer<vtkBakedProp>::New() };
+  }
+  ShownProp shown = *entry;
+  before.erase(entry);
+  return shown;
+}
 
 /// How many receivers the shader of one prop can tell apart.
 std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
@@ -181,6 +198,7 @@ struct ReceiverUniforms
 struct vtkSoftShadowPass::Internals
 {
   vtkNew<vtkShadowSceneCollector> Collector;
+  penumbra::ShadowScene Scene; ///< the collector's, with texels that fit into the memory
   std::vector<ShownProp> Shown;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkTimeStamp BakeTime;
@@ -277,6 +295,12 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
   this->Impl->Renderer = nullptr;
 }
 
+int vtkSoftShadowPass::GetShadingOf(vtkProp* prop) const
+{
+  vtkInformation* keys = prop->GetPropertyKeys();
+  return keys && keys->Has(DESIGNATED()) ? keys->Get(DESIGNATED()) : this->Shading;
+}
+
 void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   const bool isNewWindow = window != this->Impl->Window ||
@@ -285,25 +309,40 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
   {
     return;
   }
-  if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow)
+  // What is shown decides what has to be baked.
+  const bool isShadedOtherwise = std::any_of(this->Impl->Shown.begin(), this->Impl->Shown.end(),
+    [this](const ShownProp& shown)
+    { return shown.Prop && this->GetShadingOf(shown.Prop) != shown.Shading; });
+  if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow ||
+    isShadedOtherwise || this->GetMTime() > this->Impl->BakeTime.GetMTime())
   {
+    if (isNewWindow)
+    {
+      this->Impl->Shown.clear();
+    }
     this->BakeReceivers(window);
   }
 }
 
 void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
 {
-  const penumbra::ShadowScene& scene = this->Impl->Collector->GetScene();
-  this->Impl->Shown.clear();
+  this->Impl->Scene = this->Impl->Collector->GetScene();
+  const penumbra::ShadowScene& scene = this->Impl->Scene;
   this->Impl->Window = window;
   this->Impl->BakeTime.Modified();
-  this->Impl->ShaderTime.Modified();
+  std::vector<ShownProp> before;
+  before.swap(this->Impl->Shown);
   // Without a light nothing is in shadow: receivers are drawn plain.
   if (scene.Lights.empty() || scene.Receivers.empty())
   {
+    this->Impl->ShaderTime.Modified();
     return;
   }
-  ++this->BakeCount;
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  this->Baker->SetScene(scene);
+  const std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
+  bool isBaked = false;
   const std::size_t maximum = GetMaximumReceivers(window);
   for (const auto& [prop, receivers] : this->Impl->Collector->GetReceiverProps())
   {
@@ -313,21 +352,41 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
                                      << maximum << ". Divide it. It is drawn without shadows.");
       continue;
     }
-    ShownProp shown{ prop, receivers, vtkSmartPointer<vtkRadianceTexture>::New() };
-    if (!this->Baker->Bake(scene, receivers, window, shown.Texture).empty())
+    ShownProp shown = TakeShown(before, prop);
+    const int shading = this->GetShadingOf(prop);
+    const vtkBakedProp::Outcome outcome =
+      shown.Baked->Update(this->Baker, scene, receivers, plans, window, shading == RADIANCE);
+    if (outcome != vtkBakedProp::Outcome::Unchanged)
     {
-      shown.Texture->ReleaseVariance();
+      shown.HasShownTexture = false;
+    }
+    isBaked = isBaked || outcome == vtkBakedProp::Outcome::Baked;
+    if (outcome != vtkBakedProp::Outcome::Failed)
+    {
       this->Impl->Shown.push_back(shown);
     }
   }
+  this->Baker->ReleaseGraphicsResources();
+  state->Pop();
+  this->BakeCount += isBaked ? 1 : 0;
+  this->Impl->ShaderTime.Modified();
+}
+
+std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
+{
+  std::vector<penumbra::ReceiverPlan> plans;
+  for (std::size_t i = 0; i < this->Impl->Scene.Receivers.size(); ++i)
+  {
+    plans.push_back(this->Baker->Plan(i));
+  }
+  return plans;
 }
 
 void vtkSoftShadowPass::ChooseShading()
 {
   for (ShownProp& shown : this->Impl->Shown)
   {
-    vtkInformation* keys = shown.Prop->GetPropertyKeys();
-    const int shading = keys && keys->Has(DESIGNATED()) ? keys->Get(DESIGNATED()) : this->Shading;
+    const int shading = this->GetShadingOf(shown.Prop);
     const bool isMatte = IsMatte(shown.Prop);
     const bool isOther = shading != shown.Shading;
     if (isOther || isMatte != shown.IsMatte)
@@ -336,9 +395,9 @@ void vtkSoftShadowPass::ChooseShading()
       shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
-    if (isOther || !shown.HasShownTexture)
+    if (shown.Baked->HasTexture() && (isOther || !shown.HasShownTexture))
     {
-      MakeShownTexture(shown, this->Impl->Collector->GetScene(), this->Impl->Window);
+      MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
     }
   }
 }
@@ -378,13 +437,13 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
   const ShownProp& shown = this->Impl->Shown[index];
   std::string defines =
-    "#define PENUMBRA_RECEIVERS " + std::to_string(shown.Receivers.size()) + "\n";
+    "#define PENUMBRA_RECEIVERS " + std::to_string(shown.CountReceivers()) + "\n";
   std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
   if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
   {
     defines += "#define PENUMBRA_VIEW\n";
     position = "vec4(vertexVC.xyz, 1.0)";
-    if (shown.Receivers.size() == 1 && AddVarying(vertexShader, geometryShader))
+    if (shown.CountReceivers() == 1 && AddVarying(vertexShader, geometryShader))
     {
       defines += "#define PENUMBRA_VARYING\n";
     }
@@ -422,8 +481,9 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   const ShownProp& shown = this->Impl->Shown[index];
   vtkOpenGLState* state = this->Impl->Window->GetState();
   state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
+  vtkRadianceTexture* radiance = shown.Baked->GetTexture();
   vtkTextureObject* texture =
-    shown.Shading == RADIANCE ? shown.Texture->GetIrradiance() : shown.Factors->GetTexture();
+    shown.Shading == RADIANCE ? radiance->GetIrradiance() : shown.Factors->GetTexture();
   glBindTexture(GL_TEXTURE_2D, texture->GetHandle());
   program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
 
@@ -438,16 +498,14 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   state->vtkglGetIntegerv(GL_VIEWPORT, &viewport.x);
 
   const bool fromView = program->IsUniformUsed("penumbraViewMaps");
-  const penumbra::ShadowScene& scene = this->Impl->Collector->GetScene();
   ReceiverUniforms uniforms;
-  for (std::size_t i = 0; i < shown.Receivers.size(); ++i)
+  for (std::size_t i = 0; i < shown.CountReceivers(); ++i)
   {
-    const penumbra::Receiver& receiver = scene.Receivers[shown.Receivers[i]];
-    const glm::dmat4 map = fromView
-      ? penumbra::MakeViewMap(receiver.Base, toView)
-      : penumbra::MakeScreenMap(receiver.Base, toView, toClip, viewport);
+    const vtkBakedProp::Entry& entry = shown.Baked->GetEntries()[i];
+    const glm::dmat4 map = fromView ? penumbra::MakeViewMap(entry.Base, toView)
+                                    : penumbra::MakeScreenMap(entry.Base, toView, toClip, viewport);
     uniforms.Add(
-      map, receiver.Settings, shown.Texture->GetRegions()[i], glm::vec2(shown.Texture->GetSize()));
+      map, entry.Settings.Settings, radiance->GetRegions()[i], glm::vec2(radiance->GetSize()));
   }
   if (shown.Factors)
   {
@@ -467,7 +525,7 @@ int vtkSoftShadowPass::GetNumberOfReceivers() const
   std::size_t count = 0;
   for (const ShownProp& shown : this->Impl->Shown)
   {
-    count += shown.Receivers.size();
+    count += shown.CountReceivers();
   }
   return static_cast<int>(count);
 }
@@ -477,18 +535,31 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
   auto index = static_cast<std::size_t>(receiver);
   for (const ShownProp& shown : this->Impl->Shown)
   {
-    if (index < shown.Receivers.size())
+    if (index < shown.CountReceivers())
     {
-      const auto texels = shown.Texture->Download(shown.Texture->GetRegions()[index]).Irradiance;
+      const auto texels = shown.Baked->Download(this->Impl->Scene, index, this->Impl->Window);
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);
       array->SetNumberOfTuples(static_cast<vtkIdType>(texels.size()));
       std::copy_n(&texels.front().x, 4 * texels.size(), array->GetPointer(0));
       return array;
     }
-    index -= shown.Receivers.size();
+    index -= shown.CountReceivers();
   }
   return nullptr;
+}
+
+void vtkSoftShadowPass::GetPlan(vtkTable* table)
+{
+  penumbra::MakePlanTable(table);
+  int receiver = 0;
+  for (const ShownProp& shown : this->Impl->Shown)
+  {
+    for (const vtkBakedProp::Entry& entry : shown.Baked->GetEntries())
+    {
+      penumbra::AddToPlanTable(receiver++, entry.Report, table);
+    }
+  }
 }
 
 vtkTypeInt64 vtkSoftShadowPass::GetTextureBytes() const

@@ -42,6 +42,12 @@ class vtkOpenGLRenderWindow;
 class vtkProp;
 class vtkRadianceBaker;
 class vtkRenderer;
+class vtkTable;
+
+namespace penumbra
+{
+struct ReceiverPlan;
+}
 
 class PENUMBRARENDERING_EXPORT vtkSoftShadowPass : public vtkOpenGLRenderPass
 {
@@ -124,6 +130,13 @@ public:
   vtkSmartPointer<vtkFloatArray> GetTexels(int receiver);
 
   /**
+   * What was decided and done for each receiver and light at the last bake that concerned it, a row
+   * each: Receiver and Light (indices), Effect, Reason, LightSamples, Texels, Triangles,
+   * SceneTriangles, Milliseconds, Bytes. The table is made anew.
+   */
+  void GetPlan(vtkTable* table);
+
+  /**
    * Bytes of all textures that the pass holds at present.
    */
   vtkTypeInt64 GetTextureBytes() const;
@@ -152,7 +165,9 @@ private:
 
   struct Internals;
   static vtkInformationIntegerKey* RECEIVER_INDEX();
+  int GetShadingOf(vtkProp* prop) const;
   void UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  std::vector<penumbra::ReceiverPlan> PlanReceivers();
   void BakeReceivers(vtkOpenGLRenderWindow* window);
   void ChooseShading();
   std::vector<vtkProp*> MarkReceivers();

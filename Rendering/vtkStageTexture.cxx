@@ -50,7 +50,7 @@ bool vtkStageTexture::Allocate(
   return true;
 }
 
-void vtkStageTexture::BindAsTarget(int firstRow, int lastRow, bool add)
+void vtkStageTexture::BindAsTarget(const penumbra::TexelRectangle& rectangle, bool add)
 {
   vtkOpenGLState* state = this->Window->GetState();
   this->Framebuffer->SetContext(this->Window);
@@ -67,17 +67,36 @@ void vtkStageTexture::BindAsTarget(int firstRow, int lastRow, bool add)
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglViewport(0, 0, this->Size.x, this->Size.y);
   state->vtkglEnable(GL_SCISSOR_TEST);
-  state->vtkglScissor(0, firstRow, this->Size.x, lastRow - firstRow);
+  const glm::ivec2 size = rectangle.GetSize();
+  state->vtkglScissor(rectangle.Low.x, rectangle.Low.y, size.x, size.y);
 }
 
-void vtkStageTexture::Upload(int rows, const float* values)
+void vtkStageTexture::Upload(const glm::ivec2& size, const float* values)
 {
   constexpr GLenum formats[] = { GL_RED, GL_RG, GL_RGB, GL_RGBA };
   vtkOpenGLState* state = this->Window->GetState();
   this->Texture->Activate();
   state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexSubImage2D(
-    GL_TEXTURE_2D, 0, 0, 0, this->Size.x, rows, formats[this->Components - 1], GL_FLOAT, values);
+    GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, formats[this->Components - 1], GL_FLOAT, values);
+  this->Texture->Deactivate();
+}
+
+void vtkStageTexture::FillAndCopy(const glm::vec4& values, vtkStageTexture* source,
+  const penumbra::TexelRectangle& rectangle, const glm::ivec2& to)
+{
+  this->BindAsTarget(penumbra::WholeRectangle(this->Size), false);
+  glClearBufferfv(GL_COLOR, 0, &values.x);
+  if (rectangle.IsEmpty())
+  {
+    return;
+  }
+  source->BindAsTarget(rectangle, false);
+  source->Framebuffer->ActivateReadBuffer(0);
+  const glm::ivec2 size = rectangle.GetSize();
+  this->Texture->Activate();
+  glCopyTexSubImage2D(
+    GL_TEXTURE_2D, 0, to.x, to.y, rectangle.Low.x, rectangle.Low.y, size.x, size.y);
   this->Texture->Deactivate();
 }
 

@@ -4,7 +4,7 @@
  * @class vtkStageTexture
  * @brief what one stage of a bake draws and the next one reads
  *
- * A texture in single precision for some rows of a receiver's texels, without filtering.
+ * A texture in single precision for a rectangle of a receiver's texels, without filtering.
  */
 #ifndef vtkStageTexture_h
 #define vtkStageTexture_h
@@ -14,7 +14,7 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for vtkWeakPointer
 
-#include "Vectors.h"
+#include "TexelRectangle.h"
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLRenderWindow;
@@ -35,15 +35,22 @@ public:
   const glm::ivec2& GetSize() const { return this->Size; }
 
   /**
-   * Make the rows [firstRow, lastRow) the target of drawing; with `add`, what is drawn adds to what
-   * is there. The caller saves and restores vtkOpenGLState around it.
+   * Make a rectangle the target of drawing; with `add`, what is drawn adds to what is there. The
+   * caller saves and restores vtkOpenGLState around it.
    */
-  void BindAsTarget(int firstRow, int lastRow, bool add);
+  void BindAsTarget(const penumbra::TexelRectangle& rectangle, bool add);
 
   /**
-   * Write the first `rows` rows, `values` with all components.
+   * Write a rectangle of the given size at the texture's origin, `values` with all components.
    */
-  void Upload(int rows, const float* values);
+  void Upload(const glm::ivec2& size, const float* values);
+
+  /**
+   * Fill the texture with the values, and copy a rectangle from another one of as many components
+   * to where its first texel is `to`. The caller saves and restores vtkOpenGLState around it.
+   */
+  void FillAndCopy(const glm::vec4& values, vtkStageTexture* source,
+    const penumbra::TexelRectangle& rectangle, const glm::ivec2& to);
 
   /**
    * OpenGL's name of the texture.

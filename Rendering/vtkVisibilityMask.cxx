@@ -70,12 +70,11 @@ int vtkVisibilityMask::GetMaximumSamples(vtkOpenGLRenderWindow* window)
   return layers * SamplesPerLayer;
 }
 
-bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int height, int samples)
+bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2& size, int samples)
 {
   this->ReleaseGraphicsResources();
   this->Window = window;
-  this->Width = width;
-  this->Height = height;
+  this->Size = size;
   const int layers = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
   while (glGetError() != GL_NO_ERROR)
   {
@@ -83,7 +82,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   }
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
-  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, width, height, layers, 0, GL_RED_INTEGER,
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, size.x, size.y, layers, 0, GL_RED_INTEGER,
     GL_UNSIGNED_INT, nullptr);
   // Integer textures cannot be filtered, and there is but one level.
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -92,7 +91,7 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
   if (glGetError() != GL_NO_ERROR)
   {
-    vtkErrorMacro("OpenGL refused a mask of " << width << " x " << height << " texels for "
+    vtkErrorMacro("OpenGL refused a mask of " << size.x << " x " << size.y << " texels for "
                                               << samples << " samples; ask for fewer of either.");
     this->ReleaseGraphicsResources();
     return false;
@@ -101,9 +100,9 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, int width, int h
   return true;
 }
 
-void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
+bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
-  int firstRow)
+  const glm::ivec2& firstTexel)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
@@ -111,13 +110,15 @@ void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   if (!program)
   {
     vtkErrorMacro("The shader of the visibility masks did not compile.");
-    return;
+    return false;
   }
+  const glm::vec2 grid(texels);
+  program->SetUniform2f("receiverTexels", &grid.x);
 
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
-  // Row r of the receiver is row r - firstRow of the target. The viewport is the whole receiver's,
-  // so that nothing is rounded otherwise for one band of rows than for another.
-  state->vtkglViewport(0, -firstRow, texels.x, texels.y);
+  // Texel t of the receiver is texel t - firstTexel of the target. The viewport is the whole
+  // receiver's, so that nothing is clipped otherwise for one rectangle than for another.
+  state->vtkglViewport(-firstTexel.x, -firstTexel.y, texels.x, texels.y);
   for (unsigned int capability : { GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE })
   {
     state->vtkglDisable(capability);
@@ -132,6 +133,7 @@ void vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
     glClearBufferuiv(GL_COLOR, 0, unblocked);
     occluders->Draw(program, SetProjections(program, projections, first));
   }
+  return true;
 }
 
 void vtkVisibilityMask::ReleaseGraphicsResources()
@@ -153,6 +155,5 @@ void vtkVisibilityMask::ReleaseGraphicsResources()
 void vtkVisibilityMask::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Width: " << this->Width << "\n";
-  os << indent << "Height: " << this->Height << "\n";
+  os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
 }

@@ -35,19 +35,20 @@ public:
   static constexpr int SamplesPerLayer = 32;
 
   /**
-   * Make room for `samples` samples at `width` x `height` texels: 4 bytes for every 32 samples of a
-   * texel. False, after vtkErrorMacro, if OpenGL refuses.
+   * Make room for `samples` samples at so many texels: 4 bytes for every 32 samples of a texel.
+   * False, after vtkErrorMacro, if OpenGL refuses.
    */
-  bool Allocate(vtkOpenGLRenderWindow* window, int width, int height, int samples);
+  bool Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2& size, int samples);
 
   /**
-   * Draw the masks of the texels in rows [firstRow, firstRow + height) of a receiver of `texels`,
-   * whose width must be the width allocated. There must be no more projections than samples were
-   * allocated.
+   * Draw the masks of a receiver of `texels` from its texel `firstTexel` on, as many as were
+   * allocated. There must be no more projections than samples were allocated. What is drawn in one
+   * rectangle is, to the bit, what is drawn in any other that holds the same texels, if no triangle
+   * reaches up to a sample. False, after vtkErrorMacro, if OpenGL refuses.
    */
-  void Draw(vtkOccluderGeometry* occluders,
+  bool Draw(vtkOccluderGeometry* occluders,
     const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
-    int firstRow);
+    const glm::ivec2& firstTexel);
 
   /**
    * The texture: GL_TEXTURE_2D_ARRAY of GL_R32UI; sample s is bit s % 32 of layer s / 32.
@@ -75,8 +76,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   unsigned int Texture = 0;
   unsigned int Framebuffer = 0;
-  int Width = 0;
-  int Height = 0;
+  glm::ivec2 Size{ 0 };
 };
 
 #endif

@@ -45,7 +45,7 @@ vtkVisibilityShare::vtkVisibilityShare() = default;
 vtkVisibilityShare::~vtkVisibilityShare() = default;
 
 bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-  const penumbra::LightShape& seen, const glm::ivec2& texels, int rows)
+  const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size)
 {
   this->Window = window;
   this->Frame = frame;
@@ -63,7 +63,7 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
   const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
   this->Program->SetUniform3f("lightAxis", &axis.x);
   this->Program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
-  return this->Textures[this->Current]->Allocate(window, { texels.x, rows }, 2);
+  return this->Textures[this->Current]->Allocate(window, size, 2);
 }
 
 bool vtkVisibilityShare::SetSamples(
@@ -106,8 +106,8 @@ bool vtkVisibilityShare::UploadBuffer(
     texture->CreateTextureBuffer(static_cast<unsigned int>(values.size()), 4, VTK_FLOAT, buffer);
 }
 
-void vtkVisibilityShare::Count(
-  vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow, int targetRow)
+void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
+  const penumbra::TexelRectangle& rectangle, const glm::ivec2& firstTexel)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
@@ -120,13 +120,31 @@ void vtkVisibilityShare::Count(
   const penumbra::ScopedTexture previous(state, program, "previous", GL_TEXTURE_2D,
     this->PreviousCount > 0 ? this->Textures[1 - this->Current]->GetHandle() : 0);
 
-  program->SetUniformi("maskFirstRow", maskFirstRow);
+  program->SetUniform2i("maskFirstTexel", &maskFirstTexel.x);
   program->SetUniformi("sampleCount", this->SampleCount);
   program->SetUniformi("firstHalfCount", (this->SampleCount + 1) / 2);
   program->SetUniformi("previousCount", this->PreviousCount);
-  penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstRow - targetRow);
-  this->GetTexture()->BindAsTarget(targetRow, targetRow + lastRow - firstRow, false);
+  penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstTexel);
+  this->GetTexture()->BindAsTarget(
+    { rectangle.Low - firstTexel, rectangle.High - firstTexel }, false);
   penumbra::DrawFullScreenTriangle();
+}
+
+bool vtkVisibilityShare::Extend(
+  const penumbra::TexelRectangle& from, const penumbra::TexelRectangle& to)
+{
+  vtkStageTexture* old = this->Textures[this->Current];
+  vtkStageTexture* extended = this->Textures[1 - this->Current];
+  if (!extended->Allocate(this->Window, to.GetSize(), 2))
+  {
+    return false;
+  }
+  const penumbra::TexelRectangle both = from.Intersection(to);
+  extended->FillAndCopy(glm::vec4(1.0f, 0.0f, 0.0f, 0.0f), old,
+    { both.Low - from.Low, both.High - from.Low }, both.Low - to.Low);
+  old->ReleaseGraphicsResources();
+  this->Current = 1 - this->Current;
+  return true;
 }
 
 vtkStageTexture* vtkVisibilityShare::GetTexture()

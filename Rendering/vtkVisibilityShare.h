@@ -13,7 +13,8 @@
 
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
-#include "vtkNew.h"                  // for vtkNew
+#include "TexelRectangle.h"
+#include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for vtkWeakPointer
 
@@ -35,11 +36,10 @@ public:
 
   /**
    * Take up a light on a receiver of the given texels: `seen` is its part in front of the receiver.
-   * The textures have `rows` rows; if more samples are to come, all of the receiver's. False, after
-   * vtkErrorMacro, if OpenGL refuses.
+   * The textures have the given size. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-    const penumbra::LightShape& seen, const glm::ivec2& texels, int rows);
+    const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size);
 
   /**
    * The samples whose masks will come. The first half (the greater, if their number is odd) and the
@@ -51,11 +51,18 @@ public:
     int previousCount);
 
   /**
-   * Count the receiver's rows [firstRow, lastRow) into as many rows of the texture, from
-   * `targetRow` on. The masks' row 0 is the receiver's row `maskFirstRow`. The caller saves and
-   * restores vtkOpenGLState around it.
+   * Count a rectangle of the receiver's texels into the texture, where the receiver's texel
+   * `firstTexel` is (0, 0). Of the masks, that is `maskFirstTexel`. The caller saves and restores
+   * vtkOpenGLState around it.
    */
-  void Count(vtkVisibilityMask* masks, int maskFirstRow, int firstRow, int lastRow, int targetRow);
+  void Count(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
+    const penumbra::TexelRectangle& rectangle, const glm::ivec2& firstTexel);
+
+  /**
+   * Make the texture that of another rectangle of the receiver's texels. What was in the old one
+   * stays; the rest is wholly seen. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool Extend(const penumbra::TexelRectangle& from, const penumbra::TexelRectangle& to);
 
   /**
    * In r, the share; in g, half of what the halves differ by.

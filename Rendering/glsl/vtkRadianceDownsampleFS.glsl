@@ -13,6 +13,7 @@ uniform sampler2D variance;
 uniform ivec2 regionOrigin; // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
 uniform int factor;
+uniform ivec2 fineFirst;    // the receiver's finer texel that is (0, 0) of the sources
 
 void main()
 {
@@ -29,9 +30,9 @@ void main()
       {
         vec2 tent = 1.0 - abs((vec2(i, j) + 0.5) / float(factor) - 0.5);
         float weight = tent.x * tent.y;
-        radianceSum += weight * texelFetch(radiance, fine, 0);
+        radianceSum += weight * texelFetch(radiance, fine - fineFirst, 0);
         // All texels share the light's samples, so their errors add up like the errors of one.
-        errorSum += weight * sqrt(texelFetch(variance, fine, 0).r);
+        errorSum += weight * sqrt(texelFetch(variance, fine - fineFirst, 0).r);
         weightSum += weight;
       }
     }

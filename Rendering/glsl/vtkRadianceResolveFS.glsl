@@ -11,26 +11,27 @@
 // Output 1: in r, the variance of the mean of rgb once they are reflected. The components' errors are added
 // with their signs: they come of the same samples, and may be alike or cancel.
 
-uniform sampler2D closedForm; // irradiance / pi of the unoccluded light, in rows from firstRow on
-uniform int firstRow;
+uniform sampler2D closedForm;   // irradiance / pi of the unoccluded light
+uniform ivec2 firstTexel;       // the receiver's texel that is (0, 0) of closedForm
 // SHARES says how many: 1 if the components have one share, 3 if each has its own.
 //Penumbra::Shares::Dec
-uniform sampler2D shares;     // vtkVisibilityShareFS.glsl, in rows from sharesFirstRow on
+uniform sampler2D shares;       // vtkVisibilityShareFS.glsl
 #if SHARES == 3
 uniform sampler2D greenShares; // those above are of red
 uniform sampler2D blueShares;
 #endif
-uniform int sharesFirstRow;
-uniform int hasShares;        // 0: nothing blocks
-uniform int reconstruction;   // are shares filtered across texels?
-uniform ivec2 regionOrigin;   // where the receiver's texels lie in the target
+uniform ivec2 sharesFirstTexel; // the receiver's texel that is (0, 0) of the shares
+uniform int hasShares;          // 0: all texels see uniformShare
+uniform float uniformShare;
+uniform int reconstruction;     // are shares filtered across texels?
+uniform ivec2 regionOrigin;     // where the receiver's texels lie in the target
 uniform ivec2 regionSize;
-uniform vec3 reflectance;     // for the variance alone
+uniform vec3 reflectance;       // for the variance alone
 
 // What a texel sees of the light, and half the difference of what the halves of the samples say.
 vec2 seenShare(sampler2D source, ivec2 texel)
 {
-  return texelFetch(source, ivec2(texel.x, texel.y - sharesFirstRow), 0).rg;
+  return texelFetch(source, texel - sharesFirstTexel, 0).rg;
 }
 
 // The quadratic that fits the shares of a window of texels best, by least squares (Savitzky and Golay 1964, in
@@ -129,7 +130,7 @@ void main()
 {
   // Around the receiver, its edge's texels are repeated: see vtkRadianceTexture.
   ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
-  vec3 seen = vec3(1.0);
+  vec3 seen = vec3(uniformShare);
   vec3 halves = vec3(0.0);
   if (hasShares != 0)
   {
@@ -144,7 +145,7 @@ void main()
     seen = vec3(red.r, green.r, blue.r);
     halves = vec3(red.g, green.g, blue.g);
   }
-  vec3 unblocked = texelFetch(closedForm, ivec2(texel.x, texel.y - firstRow), 0).rgb;
+  vec3 unblocked = texelFetch(closedForm, texel - firstTexel, 0).rgb;
   gl_FragData[0] = vec4(unblocked * seen, dot(unblocked * (1.0 - seen), vec3(1.0 / 3.0)));
   float error = dot(unblocked * reflectance * halves, vec3(1.0 / 3.0));
   gl_FragData[1] = vec4(error * error, 0.0, 0.0, 0.0);

@@ -4,7 +4,7 @@
 // Where the texels of a receiver are.
 
 uniform ivec2 regionSize; // the receiver's texels
-uniform int firstRow;     // the receiver's row that is row 0 of the target
+uniform ivec2 firstTexel; // the receiver's texel that is the target's (0, 0)
 uniform vec4 metricEdges; // ex and ey in the metric frame's plane (penumbra::ReceiverFrame)
 
 // The texel's centre in the metric frame.

@@ -9,6 +9,7 @@
 in vec3 vertexUVH;
 
 uniform vec4 registration[32]; // xy: k.x and k.y of each sample; z: its height, 0 for a direction
+uniform vec2 receiverTexels;
 
 flat out uint sampleBit;
 out float gl_ClipDistance[2];
@@ -20,6 +21,12 @@ void main()
   vec3 to = registration[gl_InstanceID].xyz;
   float w = to.z > 0.0 ? (to.z - vertexUVH.z) / to.z : 1.0;
   vec2 p = vertexUVH.xy - to.xy * vertexUVH.z;
+  // Rasterisers put vertices on a grid of 1/256 of a texel. They are put there already, so that nothing that
+  // a viewport adds rounds them to another place of that grid: a texel's bits are the same in any rectangle.
+  if (w > 1.0 / 1024.0)
+  {
+    p = floor(p / w * receiverTexels * 256.0 + 0.5) / (256.0 * receiverTexels) * w;
+  }
   gl_Position = vec4(2.0 * p - w, 0.0, w); // [0, 1] w' is [-w, w]
   gl_ClipDistance[0] = vertexUVH.z;
   gl_ClipDistance[1] = w;

@@ -20,7 +20,7 @@
 //Penumbra::Emission::Dec
 
 uniform usampler2DArray masks; // bit s % 32 of layer s / 32: is sample s blocked?
-uniform int maskFirstRow;      // the receiver's row that is row 0 of the masks
+uniform ivec2 maskFirstTexel;  // the receiver's texel that is (0, 0) of the masks
 uniform samplerBuffer samples; // xyz: place in the metric frame; w: 0 for a direction, else 1
 uniform samplerBuffer cells;   // of EMISSION_CELLS: xyz: the cell's normal; w: the power of the sample
 uniform int sampleCount;
@@ -32,7 +32,7 @@ uniform int previousCount;     // how many they were
 
 uint blockedBits(ivec2 texel, int word)
 {
-  return texelFetch(masks, ivec3(texel.x, texel.y - maskFirstRow, word), 0).r;
+  return texelFetch(masks, ivec3(texel - maskFirstTexel, word), 0).r;
 }
 
 // All bits of the samples that the word holds.
@@ -113,12 +113,12 @@ vec2 seenShare(ivec2 texel, vec3 x)
 
 void main()
 {
-  ivec2 texel = ivec2(gl_FragCoord.xy) + ivec2(0, firstRow);
+  ivec2 texel = ivec2(gl_FragCoord.xy) + firstTexel;
   vec2 seen = seenShare(texel, texelPlace(texel));
   if (previousCount > 0)
   {
     // Earlier samples are one half, these the other.
-    float before = texelFetch(previous, texel, 0).r;
+    float before = texelFetch(previous, ivec2(gl_FragCoord.xy), 0).r;
     float part = float(sampleCount) / float(previousCount + sampleCount);
     seen = vec2(mix(before, seen.r, part), 0.5 * (before - seen.r));
   }

@@ -111,7 +111,7 @@ public:
     window->WaitForCompletion();
     Baked baked;
     baked.Seconds = GetTime() - start;
-    baked.Samples = reports.at(0).LightSamples.at(0);
+    baked.Samples = reports.at(0).Pairs.at(0).LightSamples;
     const auto texels = this->Texture->Download(this->Texture->GetRegions().front());
     for (const glm::vec4& texel : texels.Irradiance)
     {
@@ -153,8 +153,11 @@ class Rays : public Technique
 public:
   Baked Bake(const StudyScene& scene, const Case& point, int seed) override
   {
-    const std::vector<penumbra::Surface> occluders(
-      scene.Baked.Surfaces.begin() + 1, scene.Baked.Surfaces.end());
+    std::vector<penumbra::Surface> occluders;
+    for (std::size_t i = 1; i < scene.Baked.Surfaces.size(); ++i)
+    {
+      occluders.push_back(*scene.Baked.Surfaces[i]);
+    }
     const std::vector<float> texels = this->Peer.Bake({ occluders, scene.Light, scene.Exact.Base,
       glm::ivec2(point.Texels), point.Samples, static_cast<std::uint32_t>(seed) });
     return { { texels.begin(), texels.end() }, point.Samples, this->Peer.GetSeconds(),

@@ -125,11 +125,11 @@ BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* windo
   loop.Bake(scene, 0, window, LiteralLoop::Estimator::Ratio);
   Compare(
     texture->Download(texture->GetRegions().front()).Irradiance, loop.GetIrradiance(), result);
-  result.Triangles = reports.front().Triangles.front();
+  result.Triangles = reports.front().Pairs.front().Triangles;
   result.PeakBytesPerTexel = static_cast<double>(reports.front().PeakBytes) / texels;
   texture->GenerateMipmaps();
   result.ShownBytesPerTexel = static_cast<double>(texture->GetBytes()) / texels;
-  result.AllowedBytesPerTexel = reports.front().LightSamples.front() / 8.0 + 24.0;
+  result.AllowedBytesPerTexel = reports.front().Pairs.front().LightSamples / 8.0 + 24.0;
 
   std::vector<double> masks, literal;
   for (int run = 0; run < plan.Runs; ++run)

@@ -250,9 +250,9 @@ std::vector<float> GetOccluderPoints(
   const penumbra::ShadowScene& scene, const penumbra::Receiver& receiver)
 {
   std::vector<float> coordinates;
-  for (const penumbra::Surface& surface : scene.Surfaces)
+  for (const penumbra::SharedSurface& surface : scene.Surfaces)
   {
-    for (const glm::dvec3& point : surface.Points)
+    for (const glm::dvec3& point : surface->Points)
     {
       const glm::vec3 relative(point - receiver.Base.Corner);
       coordinates.insert(coordinates.end(), { relative.x, relative.y, relative.z });
@@ -268,7 +268,7 @@ std::vector<penumbra::Surface::Triangle> GetOccluderTriangles(
   std::uint32_t first = 0;
   for (std::size_t s = 0; s < scene.Surfaces.size(); ++s)
   {
-    const penumbra::Surface& surface = scene.Surfaces[s];
+    const penumbra::Surface& surface = *scene.Surfaces[s];
     for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
     {
       if (s != receiver.Surface || surface.Regions[t] != receiver.Region)

@@ -86,8 +86,8 @@ TEST_P(Unoccluded, TakesNoSamples)
 {
   for (const vtkRadianceBaker::Report& report : BakeReceiver(this->GetParam().MakeScene()).Reports)
   {
-    EXPECT_EQ(report.LightSamples.front(), 0);
-    EXPECT_EQ(report.Effects.front(), penumbra::Effect::Unoccluded);
+    EXPECT_EQ(report.Pairs.front().LightSamples, 0);
+    EXPECT_EQ(report.Pairs.front().Effect, penumbra::Effect::Unoccluded);
   }
 }
 

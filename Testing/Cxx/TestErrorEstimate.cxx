@@ -52,7 +52,12 @@ struct Errors
   double GetRatio() const { return this->Actual / this->Estimated; }
   int GetSamples() const
   {
-    return *std::max_element(this->Report.LightSamples.begin(), this->Report.LightSamples.end());
+    int most = 0;
+    for (const vtkRadianceBaker::PairReport& pair : this->Report.Pairs)
+    {
+      most = std::max(most, pair.LightSamples);
+    }
+    return most;
   }
 };
 

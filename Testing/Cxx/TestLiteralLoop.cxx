@@ -30,9 +30,10 @@ constexpr double Tolerance = 1e-5;
 constexpr double EdgeTolerance = 1.0 / 256;
 
 /// The share of the texels at which that may happen. A vertex is torn if its rounding error, some
-/// 1e-5 texel, spans a border of the grid: 1 in 400. Of the texels along its edges, 1 in 500 has
-/// its centre in between. So some 1e-5 of the penumbra's texels differ for each sample and edge.
-constexpr double TossUpShare = 2e-3;
+/// 1e-5 texel, spans a border of the grid: 1 in 400, and vertices that clipping makes are. Of the
+/// texels along its edges, 1 in 500 has its centre in between. So some 1e-5 of the penumbra's
+/// texels differ for each sample and edge: at a thousand samples, a few in a thousand.
+constexpr double TossUpShare = 4e-3;
 
 /// The root mean square error of n = 1024 Sobol points, of the peak: the bound that issue 2 sets.
 constexpr double ConvergedError = 7e-4;
@@ -141,7 +142,7 @@ glm::dvec3 GetTossUp(const penumbra::ShadowScene& scene, int i, int j)
       const glm::dvec3 sample = seen.Sample(s);
       const double weight = GetWeight(sample, seen, x, frame.GetNormal());
       all += weight;
-      doubtful += IsTossUp(scene.Surfaces[1], frame, sample, point, texels) ? weight : 0.0;
+      doubtful += IsTossUp(*scene.Surfaces[1], frame, sample, point, texels) ? weight : 0.0;
     }
     change += light.Radiance * (light.FormFactor(x, frame.GetNormal()) * doubtful / all);
   }

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OccluderSelector.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace penumbra
+{
+namespace
+{
+
+constexpr std::uint32_t NoPlace = std::numeric_limits<std::uint32_t>::max();
+/// A point outside of a receiver is judged by a plane through points within it.
+constexpr double RoundingsOfPlane = 3.0;
+
+/// How far the points of a surface may be off, along each axis: the rounding of the coordinates in
+/// their own type, and that of the arithmetic in double. A frame takes differences and products of
+/// three terms, a plane three points: 16 roundings of the largest number that occurs. The normal of
+/// edges that are nearly parallel is that much less certain.
+glm::dvec3 GetUncertainty(const SharedSurface& surface, const Parallelogram& receiver)
+{
+  constexpr double Roundings = 16.0;
+  glm::dvec3 largest =
+    glm::abs(receiver.Corner) + glm::abs(receiver.EdgeX) + glm::abs(receiver.EdgeY);
+  if (!surface->Triangles.empty())
+  {
+    const Box bounds = surface.GetClusters().GetBounds();
+    largest = glm::max(largest, glm::max(glm::abs(bounds.Low), glm::abs(bounds.High)));
+  }
+  const double skew = glm::length(receiver.EdgeX) * glm::length(receiver.EdgeY) /
+    glm::length(glm::cross(receiver.EdgeX, receiver.EdgeY));
+  return surface->Rounding +
+    Roundings * std::numeric_limits<double>::epsilon() * skew * glm::length(largest);
+}
+
+/// Whether the triangle is as thin as the rounding of its points: its area is nothing else.
+bool IsDegenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  constexpr double Roundings = 16.0;
+  const glm::dvec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const double length = std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) });
+  return glm::length(glm::cross(b - a, c - a)) <= Roundings *
+    std::numeric_limits<double>::epsilon() * glm::length(largest + glm::dvec3(1.0)) * length;
+}
+
+} // namespace
+
+void OccluderSelector::SetScene(const ShadowScene& scene)
+{
+  this->Clear();
+  this->Scene = &scene;
+  std::vector<Box> boxes;
+  for (const SharedSurface& surface : scene.Surfaces)
+  {
+    boxes.push_back(surface.GetClusters().GetBounds());
+  }
+  this->Surfaces = ClusterTree(boxes, 1);
+}
+
+void OccluderSelector::SetReceiver(const Receiver& receiver, const ReceiverFrame& frame)
+{
+  this->Clear();
+  this->Base = &receiver;
+  this->Frame = frame;
+}
+
+void OccluderSelector::Clear()
+{
+  this->Parts.clear();
+  this->Points.clear();
+  this->NotedBy.clear();
+  this->Selected.clear();
+  this->Casters.clear();
+}
+
+OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
+{
+  const auto [entry, isNew] = this->Parts.try_emplace(surface);
+  Part& part = entry->second;
+  if (isNew)
+  {
+    const SharedSurface& shared = this->Scene->Surfaces[surface];
+    part.Places.assign(shared->Points.size(), NoPlace);
+    part.Uncertainty = GetUncertainty(shared, this->Frame.GetBase());
+    const glm::dvec3 ownRounding = this->Scene->Surfaces[this->Base->Surface]->Rounding;
+    part.Contact = glm::dot(glm::abs(this->Frame.GetNormal()),
+                     part.Uncertainty + RoundingsOfPlane * ownRounding) /
+      this->Frame.GetSize();
+  }
+  return part;
+}
+
+std::uint32_t OccluderSelector::GetPlace(Part& part, const Surface& surface, std::uint32_t point)
+{
+  std::uint32_t& place = part.Places[point];
+  if (place == NoPlace)
+  {
+    place = static_cast<std::uint32_t>(this->Points.size());
+    this->Points.push_back(this->Frame.ToFrame(surface.Points[point]));
+  }
+  return place;
+}
+
+OccluderSelector::Search OccluderSelector::MakeSearch(
+  const LightShape& seen, const glm::dvec4& range) const
+{
+  Search search{ BlockingRegion(this->Frame, seen, range), BlockingRegion(this->Frame, seen),
+    ShadowProjector(this->Frame, seen), {}, {} };
+  search.LightNormal = glm::abs(search.Region.GetLightNormal().value_or(glm::dvec3(0.0)));
+  return search;
+}
+
+void OccluderSelector::Select(const LightShape& seen, const glm::dvec4& range)
+{
+  Search search = this->MakeSearch(seen, range);
+  search.Planes = search.Region.GetWorldPlanes();
+  this->Run(search);
+}
+
+void OccluderSelector::SelectAll(const LightShape& seen)
+{
+  this->Run(this->MakeSearch(seen, { 0.0, 0.0, 1.0, 1.0 }));
+}
+
+void OccluderSelector::Run(const Search& search)
+{
+  this->Selected.clear();
+  this->Casters.clear();
+  ++this->Selections;
+  this->Surfaces.Visit(search.Planes,
+    [&](const ClusterTree::Items& surfaces)
+    {
+      for (const std::uint32_t s : surfaces)
+      {
+        this->SelectFrom(s, search);
+      }
+    });
+  // In the scene's order, whatever the tree's is.
+  std::sort(this->Casters.begin(), this->Casters.end(),
+    [](const Caster& a, const Caster& b) { return a.Surface < b.Surface; });
+}
+
+void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
+{
+  const SharedSurface& shared = this->Scene->Surfaces[index];
+  const Surface& surface = *shared;
+  const bool isReceivers = index == this->Base->Surface;
+  Caster caster;
+  caster.Surface = index;
+  shared.GetClusters().Visit(search.Planes,
+    [&](const ClusterTree::Items& triangles)
+    {
+      Part& part = this->GetPart(index);
+      for (const std::uint32_t t : triangles)
+      {
+        if (isReceivers && surface.Regions[t] == this->Base->Region)
+        {
+          continue;
+        }
+        const auto& [a, b, c] = surface.Triangles[t];
+        const Triangle placed = { this->GetPlace(part, surface, a),
+          this->GetPlace(part, surface, b), this->GetPlace(part, surface, c) };
+        if (this->MayBlock(placed, part, search))
+        {
+          this->AddTriangle(placed, search, caster);
+        }
+      }
+    });
+  if (caster.Triangles > 0)
+  {
+    this->Casters.push_back(caster);
+  }
+}
+
+bool OccluderSelector::MayBlock(
+  const Triangle& triangle, const Part& part, const Search& search) const
+{
+  const glm::dvec3 &a = this->Points[triangle[0]], &b = this->Points[triangle[1]],
+                   &c = this->Points[triangle[2]];
+  return std::max({ a.z, b.z, c.z }) > part.Contact &&
+    (search.Planes.empty() || search.Region.MayHold(a, b, c)) && !IsDegenerate(a, b, c) &&
+    !search.Region.LiesInLight(a, b, c, glm::dot(search.LightNormal, part.Uncertainty));
+}
+
+void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& search, Caster& caster)
+{
+  const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
+                   c = this->Points[triangle[2]];
+  if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
+  {
+    this->Selected.push_back(triangle);
+    ++caster.Triangles;
+    for (const std::uint32_t place : triangle)
+    {
+      this->NotePoint(place, search, caster);
+    }
+    return;
+  }
+  const std::vector<glm::dvec3> polygon = search.Whole.Clip(a, b, c);
+  const auto first = static_cast<std::uint32_t>(this->Points.size());
+  this->Points.insert(this->Points.end(), polygon.begin(), polygon.end());
+  for (std::uint32_t i = 0; i < polygon.size(); ++i)
+  {
+    this->NotePoint(first + i, search, caster);
+    if (i > 0 && i + 1 < polygon.size())
+    {
+      this->Selected.push_back({ first, first + i, first + i + 1 });
+      ++caster.Triangles;
+    }
+  }
+}
+
+void OccluderSelector::NotePoint(std::uint32_t place, const Search& search, Caster& caster)
+{
+  this->NotedBy.resize(this->Points.size(), 0);
+  if (this->NotedBy[place] != this->Selections)
+  {
+    this->NotedBy[place] = this->Selections;
+    search.Projector.Add(this->Points[place], caster.Shadow);
+  }
+}
+
+} // namespace penumbra

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * Which triangles may block a light from a receiver, and where their shadows may fall.
+ */
+#ifndef OccluderSelector_h
+#define OccluderSelector_h
+
+#include "BlockingRegion.h"
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ShadowBounds.h"
+#include "ShadowScene.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra
+{
+
+/// A surface of the scene that may block a light from a receiver.
+struct Caster
+{
+  std::size_t Surface = 0;   ///< index into the scene's
+  std::size_t Triangles = 0; ///< how many of its triangles may
+  ShadowBounds Shadow;
+};
+
+/**
+ * Selects, for one receiver and one light after the other, the triangles that reach between them
+ * (BlockingRegion); of triangles that go far beyond, the part that does. Only clusters of triangles
+ * that touch the region are looked at, and brought into the receiver's frame, in double: what is
+ * close to the receiver keeps its height, wherever in the world it is.
+ *
+ * Triangles of the receiver itself are left out. What lies in the receiver's plane, or in that of a
+ * flat light, but for the rounding of coordinates, blocks nothing: a rug on a floor, a ceiling
+ * around a lamp.
+ */
+class PENUMBRARENDERING_EXPORT OccluderSelector
+{
+public:
+  using Triangle = Surface::Triangle;
+
+  /// Take up a scene, which is kept by reference.
+  void SetScene(const ShadowScene& scene);
+
+  /// Take up a receiver of the scene, which is kept by reference.
+  void SetReceiver(const Receiver& receiver, const ReceiverFrame& frame);
+
+  /**
+   * Select the triangles that may block `seen`, the light's part in front of the receiver, from the
+   * part of the receiver in `range`: (u, v) from its low to its high corner.
+   */
+  void Select(const LightShape& seen, const glm::dvec4& range = { 0.0, 0.0, 1.0, 1.0 });
+
+  /// Select the triangles of the whole scene, wherever they are: to check Select() by.
+  void SelectAll(const LightShape& seen);
+
+  /// Points in the receiver's frame, to which GetTriangles() refers; others may be among them.
+  const std::vector<glm::dvec3>& GetPoints() const { return this->Points; }
+  const std::vector<Triangle>& GetTriangles() const { return this->Selected; }
+  /// The surfaces that these are of.
+  const std::vector<Caster>& GetCasters() const { return this->Casters; }
+
+  /// Forget the receiver.
+  void Clear();
+
+private:
+  /// What is known of a surface in the receiver's frame.
+  struct Part
+  {
+    std::vector<std::uint32_t> Places; ///< of its points in Points, or NoPlace
+    glm::dvec3 Uncertainty{ 0.0 };     ///< of its points, in the world, along each axis
+    double Contact = 0.0;              ///< the height up to which a point may lie in the receiver
+  };
+  /// What Select() goes by.
+  struct Search
+  {
+    BlockingRegion Region; ///< of the part of the receiver
+    BlockingRegion Whole;  ///< of all of it, by which triangles are cut: the same for all parts
+    ShadowProjector Projector;
+    ConvexRegion Planes;    ///< of Region, in the world; none: all is looked at, and taken
+    glm::dvec3 LightNormal; ///< of a flat light, its components' sizes
+  };
+
+  Search MakeSearch(const LightShape& seen, const glm::dvec4& range) const;
+  void Run(const Search& search);
+  Part& GetPart(std::size_t surface);
+  std::uint32_t GetPlace(Part& part, const Surface& surface, std::uint32_t point);
+  void SelectFrom(std::size_t surface, const Search& search);
+  bool MayBlock(const Triangle& triangle, const Part& part, const Search& search) const;
+  void AddTriangle(const Triangle& triangle, const Search& search, Caster& caster);
+  void NotePoint(std::uint32_t place, const Search& search, Caster& caster);
+
+  const ShadowScene* Scene = nullptr;
+  ClusterTree Surfaces; ///< the scene's, by their boxes
+  const Receiver* Base = nullptr;
+  ReceiverFrame Frame;
+  std::unordered_map<std::size_t, Part> Parts; ///< of the surfaces that were looked at
+  std::vector<glm::dvec3> Points;              ///< of the surfaces, and those that cutting made
+  std::vector<std::uint32_t> NotedBy; ///< of each point, the last selection that noted its shadow
+  std::uint32_t Selections = 0;
+  std::vector<Triangle> Selected;
+  std::vector<Caster> Casters;
+};
+
+} // namespace penumbra
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShadowBounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra
+{
+namespace
+{
+
+/// What is closer to a sample's height, as a part of it, casts its shadow more than a thousand
+/// times as far as it is wide: that is anywhere.
+constexpr double SmallestW = 1.0 / 1024.0;
+/// Lights of more corners are taken by the box around them.
+constexpr std::size_t MostCorners = 16;
+/// A rasteriser may move an edge by the rounding of its coordinates, less than a texel.
+constexpr double RasterTexels = 1.0;
+
+/// The corners of the box around points.
+std::vector<glm::dvec3> GetBoxCorners(const std::vector<glm::dvec3>& points)
+{
+  glm::dvec3 low = points.front(), high = points.front();
+  for (const glm::dvec3& p : points)
+  {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 8; ++i)
+  {
+    corners.emplace_back(
+      (i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
+  }
+  return corners;
+}
+
+} // namespace
+
+void ShadowBounds::Add(const ShadowBounds& other)
+{
+  this->Low = glm::min(this->Low, other.Low);
+  this->High = glm::max(this->High, other.High);
+  this->Penumbra = glm::max(this->Penumbra, other.Penumbra);
+  this->IsUnbounded = this->IsUnbounded || other.IsUnbounded;
+}
+
+TexelRectangle ShadowBounds::GetTexels(const glm::ivec2& texels) const
+{
+  const TexelRectangle whole = WholeRectangle(texels);
+  if (this->IsUnbounded)
+  {
+    return whole;
+  }
+  if (!(this->Low.x <= this->High.x && this->Low.y <= this->High.y))
+  {
+    return {};
+  }
+  // Clamped while they are doubles: they may be past any integer.
+  const glm::dvec2 count(texels);
+  const auto clamp = [&](const glm::dvec2& v)
+  { return glm::ivec2(glm::clamp(v, glm::dvec2(0.0), count)); };
+  return { clamp(glm::floor(this->Low * count - RasterTexels)),
+    clamp(glm::ceil(this->High * count + RasterTexels)) };
+}
+
+double ShadowBounds::GetPenumbraTexels(const glm::ivec2& texels) const
+{
+  return this->IsUnbounded ? std::numeric_limits<double>::infinity()
+                           : glm::length(this->Penumbra * glm::dvec2(texels));
+}
+
+ShadowProjector::ShadowProjector(const ReceiverFrame& frame, const LightShape& seen)
+{
+  const LightHull hull = seen.GetHull();
+  std::vector<glm::dvec3> corners;
+  for (const glm::dvec3& p : hull.Points)
+  {
+    corners.push_back(hull.AreDirections ? frame.DirectionToFrame(p) : frame.ToFrame(p));
+  }
+  if (corners.size() > MostCorners && !hull.AreDirections)
+  {
+    corners = GetBoxCorners(corners);
+  }
+  for (const glm::dvec3& corner : corners)
+  {
+    if (!(corner.z > 0.0))
+    {
+      this->Projections.clear(); // the hull reaches the horizon, and shadows any place
+      return;
+    }
+    this->Projections.push_back(hull.AreDirections ? RegisteredProjection::FromDirection(corner)
+                                                   : RegisteredProjection::FromPoint(corner));
+  }
+}
+
+void ShadowProjector::Add(const glm::dvec3& point, ShadowBounds& bounds) const
+{
+  ShadowBounds own;
+  own.IsUnbounded = this->Projections.empty();
+  for (const RegisteredProjection& projection : this->Projections)
+  {
+    const glm::dvec3 p = projection.Project(point);
+    if (!(p.z > SmallestW))
+    {
+      own.IsUnbounded = true;
+      break;
+    }
+    const glm::dvec2 place = glm::dvec2(p) / p.z;
+    own.Low = glm::min(own.Low, place);
+    own.High = glm::max(own.High, place);
+  }
+  // Below the receiver nothing casts a shadow; where an edge enters it, its shadow is itself.
+  if (!own.IsUnbounded && point.z > 0.0)
+  {
+    own.Penumbra = own.High - own.Low;
+  }
+  bounds.Add(own);
+}
+
+} // namespace penumbra

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * Where shadows may fall.
+ */
+#ifndef ShadowBounds_h
+#define ShadowBounds_h
+
+#include "LightShape.h"
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ReceiverFrame.h"
+#include "RegisteredProjection.h"
+#include "TexelRectangle.h"
+
+#include <limits>
+#include <vector>
+
+namespace penumbra
+{
+
+/// A rectangle of (u, v) that holds the shadows of some points, from all of a light.
+struct PENUMBRARENDERING_EXPORT ShadowBounds
+{
+  glm::dvec2 Low{ std::numeric_limits<double>::infinity() };
+  glm::dvec2 High{ -std::numeric_limits<double>::infinity() };
+  /// In u and v, how wide a penumbra may be.
+  glm::dvec2 Penumbra{ 0.0 };
+  /// A point is as high as the light, or nearly: its shadow may fall anywhere.
+  bool IsUnbounded = false;
+
+  void Add(const ShadowBounds& other);
+  /// The texels of a receiver that the shadows may reach.
+  TexelRectangle GetTexels(const glm::ivec2& texels) const;
+  /// The greatest width of a penumbra, in texels.
+  double GetPenumbraTexels(const glm::ivec2& texels) const;
+};
+
+/**
+ * Projects points onto a receiver from all of a light at once: from the corners of a hull around
+ * it.
+ *
+ * From all of a convex light, the projections of a point below it are the convex hull of those from
+ * its corners. The shadows that an edge casts from two of its points are no farther apart than
+ * those of the edge's ends, since distance is convex along it: so corners tell how wide a penumbra
+ * is.
+ */
+class PENUMBRARENDERING_EXPORT ShadowProjector
+{
+public:
+  /// @param seen the light, clipped to the receiver's front
+  ShadowProjector(const ReceiverFrame& frame, const LightShape& seen);
+
+  /// Add the shadow of a point (u, v, h) that is a corner of something.
+  void Add(const glm::dvec3& point, ShadowBounds& bounds) const;
+
+private:
+  std::vector<RegisteredProjection> Projections;
+};
+
+} // namespace penumbra
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkBakedProp.h"
+
+#include "BakeChange.h"
+#include "ShadingVertices.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRadianceTexture.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkBakedProp);
+
+namespace
+{
+
+/// The size of a receiver's region of the texture.
+glm::ivec2 GetRegionSize(const vtkBakedProp::Entry& entry)
+{
+  return entry.Vertices > 0 ? glm::ivec2(entry.Vertices) : entry.Settings.Texels;
+}
+
+/// Whether the same texels would do, but for what comes from elsewhere.
+bool IsSameReceiver(const vtkBakedProp::Entry& a, const vtkBakedProp::Entry& b)
+{
+  const penumbra::Parallelogram &p = a.Settings.Base, &q = b.Settings.Base;
+  return a.Surface == b.Surface && a.Settings.Region == b.Settings.Region && p.Corner == q.Corner &&
+    p.EdgeX == q.EdgeX && p.EdgeY == q.EdgeY && a.Settings.Settings == b.Settings.Settings &&
+    a.Settings.Texels == b.Settings.Texels && a.Vertices == b.Vertices &&
+    a.Plan.Frame.GetNormal() == b.Plan.Frame.GetNormal();
+}
+
+/// Lets masks and textures stay below n/8 + 24 bytes a texel, as do the textures alone once the
+/// masks are gone: 16 of irradiance, a third of that for what is shown, and what is kept.
+void LimitBytes(const vtkBakedProp::Entry& entry, vtkRadianceBaker::Part& part)
+{
+  int samples = 0;
+  for (const penumbra::Light& light : entry.Plan.Lights)
+  {
+    samples = std::max(samples,
+      entry.Settings.Settings.GetSampleCount(light->GetSolidAngleBound(entry.Settings.Base)));
+  }
+  constexpr double Irradiance = 16.0, Shown = 16.0 / 3.0;
+  const double allowed = samples / 8.0 + 24.0;
+  const double texels = entry.Settings.GetBakedTexels();
+  part.KeptBytes = static_cast<std::size_t>(std::max(allowed - Irradiance - Shown, 0.0) * texels);
+  part.MaskAndKeptBytes = static_cast<std::size_t>((allowed - Irradiance) * texels);
+}
+
+/// The receiver's texels that some of its finer ones are a part of, by a tent that reaches to the
+/// neighbours' centres.
+penumbra::TexelRectangle Coarsen(
+  const penumbra::TexelRectangle& fine, int factor, const glm::ivec2& texels)
+{
+  const penumbra::TexelRectangle grown = factor > 1 ? fine.Grown(factor / 2) : fine;
+  const glm::ivec2 low = glm::max(grown.Low, glm::ivec2(0)) / factor;
+  const glm::ivec2 high = (grown.High + factor - 1) / factor;
+  return penumbra::TexelRectangle{ low, high }.Intersection(penumbra::WholeRectangle(texels));
+}
+
+} // namespace
+
+vtkBakedProp::vtkBakedProp() = default;
+vtkBakedProp::~vtkBakedProp() = default;
+
+vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
+  const penumbra::ShadowScene& scene, const std::vector<std::size_t>& receivers,
+  const std::vector<penumbra::ReceiverPlan>& plans, vtkOpenGLRenderWindow* window,
+  bool showsRadiance)
+{
+  std::vector<Entry> entries;
+  bool hasShadows = false;
+  for (const std::size_t i : receivers)
+  {
+    const penumbra::Receiver& receiver = scene.Receivers[i];
+    Entry entry{ i, scene.Surfaces[receiver.Surface], receiver, plans[i], receiver.Base, 0, {},
+      {} };
+    const bool isUnshadowed = penumbra::IsUnshadowed(entry.Plan);
+    hasShadows = hasShadows || !isUnshadowed;
+    // Where nothing is blocked, shadows are 1 at any vertex.
+    entry.Vertices = isUnshadowed && !showsRadiance
+      ? 2
+      : penumbra::CountShadingVertices(entry.Plan, receiver.Settings);
+    entry.Report = vtkRadianceBaker::MakeReport(entry.Plan, scene, i);
+    entries.push_back(std::move(entry));
+  }
+  if (!hasShadows && !showsRadiance)
+  {
+    const bool wasTextured = this->IsTextured;
+    this->ReleaseGraphicsResources();
+    this->Entries = std::move(entries);
+    return wasTextured ? Outcome::Baked : Outcome::Unchanged;
+  }
+  return this->IsSameLayout(entries, window)
+    ? this->BakeChanges(baker, std::move(entries))
+    : (this->Window = window, this->BakeAll(baker, std::move(entries)));
+}
+
+bool vtkBakedProp::IsSameLayout(
+  const std::vector<Entry>& entries, vtkOpenGLRenderWindow* window) const
+{
+  return this->IsTextured && this->Window == window &&
+    std::equal(
+      entries.begin(), entries.end(), this->Entries.begin(), this->Entries.end(), IsSameReceiver);
+}
+
+vtkBakedProp::Outcome vtkBakedProp::BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries)
+{
+  this->Texture->ReleaseGraphicsResources();
+  this->Entries = std::move(entries);
+  std::vector<glm::ivec2> sizes;
+  bool withVariance = false;
+  for (const Entry& entry : this->Entries)
+  {
+    sizes.push_back(GetRegionSize(entry));
+    withVariance = withVariance || entry.Settings.Settings.ErrorTolerance > 0.0;
+  }
+  this->IsTextured = this->Texture->Allocate(this->Window, sizes, withVariance);
+  for (std::size_t i = 0; i < this->Entries.size() && this->IsTextured; ++i)
+  {
+    this->IsTextured = this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(sizes[i]));
+  }
+  if (!this->IsTextured)
+  {
+    this->ReleaseGraphicsResources();
+    return Outcome::Failed;
+  }
+  return Outcome::Baked;
+}
+
+vtkBakedProp::Outcome vtkBakedProp::BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries)
+{
+  Outcome outcome = Outcome::Unchanged;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+  {
+    Entry& now = entries[i];
+    Entry& before = this->Entries[i];
+    const int halo = now.Settings.Settings.Reconstruction && now.Vertices == 0
+      ? vtkRadianceResolver::GetReconstructionHalo()
+      : 0;
+    const penumbra::BakeChange change = penumbra::FindBakeChange(before.Plan, now.Plan, halo);
+    now.Report.Seconds = 0.0;
+    now.Kept.resize(now.Plan.Lights.size());
+    for (std::size_t l = 0; l < change.Lights.size() && !before.Kept.empty(); ++l)
+    {
+      const penumbra::LightChange& light = change.Lights[l];
+      if (light.Before != penumbra::LightChange::New)
+      {
+        now.Kept[l] = before.Kept[static_cast<std::size_t>(light.Before)];
+        now.Kept[l].Stale = now.Kept[l].Stale.Union(light.Stale);
+      }
+    }
+    const glm::ivec2 size = GetRegionSize(now);
+    const bool isWhole = now.Vertices > 0 || now.Settings.Settings.ErrorTolerance > 0.0;
+    const penumbra::TexelRectangle rectangle = isWhole
+      ? penumbra::WholeRectangle(size)
+      : Coarsen(change.Resolved, now.Plan.Supersampling, size);
+    if (change.Resolved.IsEmpty())
+    {
+      now.Base = before.Base;
+      now.Report = before.Report;
+      continue;
+    }
+    if (!this->Bake(baker, now, i, rectangle))
+    {
+      this->ReleaseGraphicsResources();
+      return Outcome::Failed;
+    }
+    outcome = Outcome::Baked;
+  }
+  this->Entries = std::move(entries);
+  return outcome;
+}
+
+bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
+  const penumbra::TexelRectangle& rectangle)
+{
+  vtkRadianceBaker::Part part;
+  part.Rectangle = rectangle;
+  if (entry.Vertices > 0)
+  {
+    const penumbra::ReceiverPlan vertices = penumbra::PlanVertices(entry.Plan, entry.Vertices);
+    entry.Base = vertices.Frame.GetBase();
+    entry.Report =
+      baker->BakePart(vertices, entry.Receiver, this->Window, this->Texture, region, part);
+    return entry.Report.IsComplete;
+  }
+  if (entry.Settings.Settings.ErrorTolerance <= 0.0 && entry.Plan.Supersampling == 1)
+  {
+    entry.Kept.resize(entry.Plan.Lights.size());
+    part.Kept = &entry.Kept;
+    LimitBytes(entry, part);
+  }
+  entry.Report =
+    baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
+  return entry.Report.IsComplete;
+}
+
+std::vector<glm::vec4> vtkBakedProp::Download(
+  const penumbra::ShadowScene& scene, std::size_t entry, vtkOpenGLRenderWindow* window)
+{
+  if (this->IsTextured && this->Entries[entry].Vertices == 0)
+  {
+    return this->Texture->Download(this->Texture->GetRegions()[entry]).Irradiance;
+  }
+  vtkNew<vtkRadianceBaker> baker;
+  vtkNew<vtkRadianceTexture> texture;
+  std::vector<glm::vec4> texels;
+  if (!baker->Bake(scene, { this->Entries[entry].Receiver }, window, texture).empty())
+  {
+    texels = texture->Download(texture->GetRegions().front()).Irradiance;
+  }
+  texture->ReleaseGraphicsResources();
+  return texels;
+}
+
+std::size_t vtkBakedProp::GetBytes() const
+{
+  std::size_t bytes = this->Texture->GetBytes();
+  for (const Entry& entry : this->Entries)
+  {
+    for (const vtkRadianceBaker::KeptLight& kept : entry.Kept)
+    {
+      bytes += kept.Shares.GetBytes();
+    }
+  }
+  return bytes;
+}
+
+void vtkBakedProp::ReleaseGraphicsResources()
+{
+  for (Entry& entry : this->Entries)
+  {
+    for (vtkRadianceBaker::KeptLight& kept : entry.Kept)
+    {
+      kept.Shares.Release();
+    }
+  }
+  this->Texture->ReleaseGraphicsResources();
+  this->IsTextured = false;
+  this->Window = nullptr;
+}
+
+void vtkBakedProp::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Receivers: " << this->Entries.size() << "\n";
+  os << indent << "HasTexture: " << this->IsTextured << "\n";
+}

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkBakedProp
+ * @brief the radiance of the receivers of one prop, kept up to date
+ *
+ * Update() bakes what has changed since the last time, and no more: the texels that an occluder may
+ * shade that came, went or moved; without drawing, where only a light's radiance is another. What
+ * it leaves is, to the bit, what a whole bake of the same scene gives.
+ *
+ * Receivers whose light is smooth have a few vertices instead of texels
+ * (penumbra::ShadingVertices); a prop whose receivers have no shadow to show has no texture.
+ */
+#ifndef vtkBakedProp_h
+#define vtkBakedProp_h
+
+#include "EffectPlanner.h"
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "ShadowScene.h"
+#include "vtkNew.h" // for vtkNew
+#include "vtkObject.h"
+#include "vtkRadianceBaker.h" // for its reports
+#include "vtkWeakPointer.h"   // for vtkWeakPointer
+
+#include <vector> // for receivers
+
+class vtkOpenGLRenderWindow;
+class vtkRadianceTexture;
+
+class PENUMBRARENDERING_EXPORT vtkBakedProp : public vtkObject
+{
+public:
+  static vtkBakedProp* New();
+  vtkTypeMacro(vtkBakedProp, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What Update() did.
+  enum class Outcome
+  {
+    Unchanged,
+    Baked,
+    Failed ///< after vtkErrorMacro: there is nothing to show
+  };
+
+  /**
+   * Bring the radiance up to date.
+   *
+   * @param baker has taken up the scene
+   * @param receivers the prop's, as indices into the scene's
+   * @param plans of all receivers of the scene
+   * @param window must be current
+   * @param showsRadiance whether radiance is shown, or shadows alone: without shadows, there is
+   * then nothing to bake
+   */
+  Outcome Update(vtkRadianceBaker* baker, const penumbra::ShadowScene& scene,
+    const std::vector<std::size_t>& receivers, const std::vector<penumbra::ReceiverPlan>& plans,
+    vtkOpenGLRenderWindow* window, bool showsRadiance);
+
+  /**
+   * False if there is nothing to show: no receiver has a shadow, and radiance is not shown.
+   */
+  bool HasTexture() const { return this->IsTextured; }
+
+  /**
+   * The texture, whose regions are in the order of the receivers.
+   */
+  vtkRadianceTexture* GetTexture() { return this->Texture; }
+
+  /// A receiver, and what was done for it.
+  struct Entry
+  {
+    std::size_t Receiver = 0; ///< index into the scene's
+    penumbra::SharedSurface Surface;
+    penumbra::Receiver Settings;
+    penumbra::ReceiverPlan Plan;  ///< of its texels
+    penumbra::Parallelogram Base; ///< that the texture's region covers
+    int Vertices = 0;             ///< along each edge; 0: it has texels
+    std::vector<vtkRadianceBaker::KeptLight> Kept;
+    vtkRadianceBaker::Report Report; ///< of its last bake
+  };
+  const std::vector<Entry>& GetEntries() const { return this->Entries; }
+
+  /**
+   * A receiver's texels, as vtkRadianceTexture::Texels::Irradiance: those of the texture, or what
+   * its vertices stand for, baked anew. `window` must be current.
+   */
+  std::vector<glm::vec4> Download(
+    const penumbra::ShadowScene& scene, std::size_t entry, vtkOpenGLRenderWindow* window);
+
+  /**
+   * The bytes of the texture and of all that is kept to bake less the next time.
+   */
+  std::size_t GetBytes() const;
+
+  /**
+   * Free the textures.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkBakedProp();
+  ~vtkBakedProp() override;
+
+private:
+  vtkBakedProp(const vtkBakedProp&) = delete;
+  void operator=(const vtkBakedProp&) = delete;
+
+  bool IsSameLayout(const std::vector<Entry>& entries, vtkOpenGLRenderWindow* window) const;
+  bool Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
+    const penumbra::TexelRectangle& rectangle);
+  Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries);
+  Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkNew<vtkRadianceTexture> Texture;
+  std::vector<Entry> Entries;
+  bool IsTextured = false;
+};
+
+#endif
