@@ -13,6 +13,7 @@
 
 #include "vtkHeadlessOSMesaRenderWindow.h"
 #include "vtkNew.h"
+#include "vtkOpenGLState.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
 
@@ -48,7 +49,7 @@ Plan MakeSmallestPlan()
 enum class Fixed
 {
   Density, ///< one object on each unit of area: the plain grows
-  Extent   ///< the plain: objects shrink, as their distances do
+  Extent   ///< the field's: objects shrink, as their distances do
 };
 
 /// How the scene has the objects.
@@ -60,10 +61,17 @@ enum class Layout
 
 // ---- The scene ----
 
-/// The receiver, around the origin, and the plain around it, which objects reach at s = 100: all
-/// that can block is among the first hundred objects of a field of fixed density.
+/// The receiver, around the origin.
 constexpr double TileEdge = 4.0;
-constexpr double PlainEdge = 10.0;
+/// The field of a hundred objects, and of any number where the extent is fixed. All that can block
+/// is in it.
+constexpr double FieldEdge = 10.0;
+
+/// Each object has a cell of a square grid.
+double GetCellEdge(int objects, Fixed fixed)
+{
+  return fixed == Fixed::Density ? 1.0 : FieldEdge / std::sqrt(objects);
+}
 
 /// The first cells of a spiral around (0, 0): at any number, they fill about a square.
 std::vector<glm::dvec2> MakeSpiral(std::size_t count)
@@ -111,7 +119,7 @@ penumbra::Surface MakeBox(const glm::dvec2& middle, double cellEdge, RandomGeome
 /// Boxes in no order: neighbours in the field are not neighbours in memory.
 std::vector<penumbra::Surface> MakeBoxes(int count, Fixed fixed)
 {
-  const double cellEdge = fixed == Fixed::Density ? 1.0 : PlainEdge / std::sqrt(count);
+  const double cellEdge = GetCellEdge(count, fixed);
   RandomGeometry random(1);
   std::vector<penumbra::Surface> boxes;
   for (const glm::dvec2& cell : MakeSpiral(static_cast<std::size_t>(count)))
@@ -169,7 +177,8 @@ penumbra::ShadowScene MakeScene(const Plan& plan, int objects, Fixed fixed)
     { 0.0, TileEdge, 0.0 } };
   tile.Settings.LightSamples = plan.Samples;
   tile.Texels = glm::ivec2(plan.Texels);
-  const double edge = fixed == Fixed::Density ? std::max(std::sqrt(objects), PlainEdge) : PlainEdge;
+  // One cell more on each side, for the spiral's last turn.
+  const double edge = GetCellEdge(objects, fixed) * (std::sqrt(objects) + 2.0);
   penumbra::ShadowScene scene;
   scene.Surfaces.emplace_back(MakePlain(edge));
   scene.Receivers = { tile };
@@ -274,6 +283,8 @@ void MeasureQuery(const Plan& plan, const penumbra::ShadowScene& scene,
 bool MeasureBake(const Plan& plan, const penumbra::ShadowScene& scene, vtkRadianceBaker* baker,
   vtkOpenGLRenderWindow* window, Result& result)
 {
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
   vtkNew<vtkRadianceTexture> texture;
   const glm::ivec2 texels = scene.Receivers.front().Texels;
   bool isComplete = texture->Allocate(window, { texels });
@@ -288,8 +299,9 @@ bool MeasureBake(const Plan& plan, const penumbra::ShadowScene& scene, vtkRadian
   baker->SetScene(scene);
   bake(); // untimed: shaders are compiled
   result.BakeSeconds = GetMedianSeconds(plan, bake);
-  texture->ReleaseGraphicsResources();
   baker->ReleaseGraphicsResources();
+  state->Pop();
+  texture->ReleaseGraphicsResources();
   return isComplete;
 }
 
@@ -321,25 +333,27 @@ bool Measure(const Plan& plan, int objects, Fixed fixed, Layout layout,
 
 // ---- Tables ----
 
-/// What has an exponent: its name in tables and in JSON, its unit's size, and how it is got.
+/// What has an exponent: its name in tables and in JSON, how it is printed, and how it is got.
 struct Column
 {
   const char* Title;
   const char* Key;
-  double Scale;
+  double Scale; ///< of its unit
+  int Digits;
   double (*Get)(const Result&);
 };
 
 const Column Columns[] = {
-  { "selected triangles", "selected", 1.0,
+  { "selected triangles", "selected", 1.0, 6,
     [](const Result& r) { return static_cast<double>(r.Selected); } },
-  { "query, ms", "querySeconds", 1e3, [](const Result& r) { return r.QuerySeconds; } },
-  { "bake, ms", "bakeSeconds", 1e3, [](const Result& r) { return r.BakeSeconds; } },
-  { "trees of surfaces, ms", "surfaceTreesSeconds", 1e3,
+  { "query, ms", "querySeconds", 1e3, 3, [](const Result& r) { return r.QuerySeconds; } },
+  { "bake, ms", "bakeSeconds", 1e3, 3, [](const Result& r) { return r.BakeSeconds; } },
+  { "trees of surfaces, ms", "surfaceTreesSeconds", 1e3, 3,
     [](const Result& r) { return r.SurfaceTreesSeconds; } },
-  { "tree of the scene, ms", "sceneTreeSeconds", 1e3,
+  { "tree of the scene, ms", "sceneTreeSeconds", 1e3, 3,
     [](const Result& r) { return r.SceneTreeSeconds; } },
-  { "all triangles tested, ms", "testSeconds", 1e3, [](const Result& r) { return r.TestSeconds; } },
+  { "all triangles tested, ms", "testSeconds", 1e3, 3,
+    [](const Result& r) { return r.TestSeconds; } },
 };
 
 constexpr Layout Layouts[] = { Layout::OneSurface, Layout::ManySurfaces };
@@ -398,7 +412,7 @@ void PrintTable(const Plan& plan, const Table& table)
         std::printf("| %d | %s |", r.Objects, GetName(layout));
         for (const Column& column : Columns)
         {
-          std::printf(" %.4g |", column.Scale * column.Get(r));
+          std::printf(" %.*g |", column.Digits, column.Scale * column.Get(r));
         }
         std::printf("\n");
       }
