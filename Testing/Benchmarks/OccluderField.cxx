@@ -346,13 +346,13 @@ struct Column
 const Column Columns[] = {
   { "selected triangles", "selected", 1.0, 6,
     [](const Result& r) { return static_cast<double>(r.Selected); } },
-  { "query, ms", "querySeconds", 1e3, 3, [](const Result& r) { return r.QuerySeconds; } },
-  { "bake, ms", "bakeSeconds", 1e3, 3, [](const Result& r) { return r.BakeSeconds; } },
-  { "trees of surfaces, ms", "surfaceTreesSeconds", 1e3, 3,
+  { "query, ms", "querySeconds", 1e3, 4, [](const Result& r) { return r.QuerySeconds; } },
+  { "bake, ms", "bakeSeconds", 1e3, 4, [](const Result& r) { return r.BakeSeconds; } },
+  { "trees of surfaces, ms", "surfaceTreesSeconds", 1e3, 4,
     [](const Result& r) { return r.SurfaceTreesSeconds; } },
-  { "tree of the scene, ms", "sceneTreeSeconds", 1e3, 3,
+  { "tree of the scene, ms", "sceneTreeSeconds", 1e3, 4,
     [](const Result& r) { return r.SceneTreeSeconds; } },
-  { "all triangles tested, ms", "testSeconds", 1e3, 3,
+  { "all triangles tested, ms", "testSeconds", 1e3, 4,
     [](const Result& r) { return r.TestSeconds; } },
 };
 
