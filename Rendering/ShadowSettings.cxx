@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShadowSettings.h"
 
+#include "Coordinates.h"
 #include "DirectionalLight.h"
 #include "DiskLight.h"
 #include "PointLight.h"
@@ -17,11 +18,6 @@ namespace penumbra
 {
 namespace
 {
-
-bool IsFinite(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// "Name is VALUE; allowed: WHAT".
 template <typename Value>
@@ -41,7 +37,7 @@ std::string Describe(const char* name, const glm::dvec3& v, const std::string& a
 
 bool IsIn(const glm::dvec3& v, double low, double high)
 {
-  return IsFinite(v) && glm::all(glm::greaterThanEqual(v, glm::dvec3(low))) &&
+  return glm::all(glm::greaterThanEqual(v, glm::dvec3(low))) &&
     glm::all(glm::lessThanEqual(v, glm::dvec3(high)));
 }
 
@@ -120,17 +116,17 @@ std::string LightSettings::FindProblem() const
     return Describe("Shape", shape,
       "0 (Parallelogram), 1 (Triangle), 2 (Disk), 3 (Segment), 4 (Point) or 5 (Directional)");
   }
-  if (!IsFinite(this->Origin))
+  if (!IsInRange(this->Origin))
   {
-    return Describe("Origin", this->Origin, "finite coordinates");
+    return Describe("Origin", this->Origin, AllowedCoordinates);
   }
-  if (!IsFinite(this->Point1))
+  if (!IsInRange(this->Point1))
   {
-    return Describe("Point1", this->Point1, "finite coordinates");
+    return Describe("Point1", this->Point1, AllowedCoordinates);
   }
-  if (!IsFinite(this->Point2))
+  if (!IsInRange(this->Point2))
   {
-    return Describe("Point2", this->Point2, "finite coordinates");
+    return Describe("Point2", this->Point2, AllowedCoordinates);
   }
   if (!IsIn(this->Radiance, 0.0, MaximumRadiance))
   {
