@@ -141,6 +141,11 @@ DiskLight::DiskLight(const glm::dvec3& centre, const glm::dvec3& normal, double 
   }
 }
 
+void DiskLight::SetFirstAxis(const glm::dvec3& direction)
+{
+  this->CutDirection = NormalizeAcross(direction, this->Normal, this->CutDirection);
+}
+
 std::vector<glm::dvec3> DiskLight::GetRim(int count) const
 {
   const glm::dvec3 y = glm::cross(this->Normal, this->CutDirection);
@@ -163,6 +168,7 @@ DiskLight DiskLight::Transformed(const glm::dmat4& matrix) const
   const glm::dvec3 area = glm::cross(x, y) * (glm::determinant(linear) < 0.0 ? -1.0 : 1.0);
   DiskLight result(glm::dvec3(matrix * glm::dvec4(this->Centre, 1.0)), area,
     this->Radius * std::sqrt(glm::length(area)));
+  result.SetFirstAxis(x);
   result.Radiance = this->Radiance;
   result.TwoSided = this->TwoSided;
   return result;
@@ -287,11 +293,8 @@ std::vector<double> DiskLight::GetKey() const
   std::vector<double> key = this->MakeKey(1);
   key.insert(key.end(),
     { this->Centre.x, this->Centre.y, this->Centre.z, this->Normal.x, this->Normal.y,
-      this->Normal.z, this->Radius, this->CutOffset });
-  if (this->CutOffset > -1.0)
-  {
-    key.insert(key.end(), { this->CutDirection.x, this->CutDirection.y, this->CutDirection.z });
-  }
+      this->Normal.z, this->Radius, this->CutOffset, this->CutDirection.x, this->CutDirection.y,
+      this->CutDirection.z });
   return key;
 }
 

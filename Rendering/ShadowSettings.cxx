@@ -159,20 +159,29 @@ Light LightSettings::MakeLight() const
 
 Light LightSettings::MakeShape() const
 {
+  // Samples go with the points, so that a light that turns does not flicker.
   const glm::dvec3 toPoint1 = this->Point1 - this->Origin;
+  const glm::dvec3 toPoint2 = this->Point2 - this->Origin;
   switch (this->Shape)
   {
     case LightKind::Triangle:
       return PolygonLight::Triangle(this->Origin, this->Point1, this->Point2);
     case LightKind::Disk:
-      return DiskLight(
-        this->Origin, glm::cross(toPoint1, this->Point2 - this->Origin), glm::length(toPoint1));
+    {
+      DiskLight disk(this->Origin, glm::cross(toPoint1, toPoint2), glm::length(toPoint1));
+      disk.SetFirstAxis(toPoint1);
+      return disk;
+    }
     case LightKind::Segment:
       return SegmentLight(this->Origin, this->Point1);
     case LightKind::Point:
       return PointLight(this->Origin);
     case LightKind::Directional:
-      return DirectionalLight(toPoint1, this->AngularDiameter);
+    {
+      DirectionalLight sun(toPoint1, this->AngularDiameter);
+      sun.SetFirstAxis(toPoint2);
+      return sun;
+    }
     default:
       return PolygonLight::Parallelogram(this->Origin, this->Point1, this->Point2);
   }
