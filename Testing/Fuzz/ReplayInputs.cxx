@@ -5,15 +5,11 @@
 //   PenumbraFuzzReplay COUNT [FIRST]   inputs of random bytes, of the seeds FIRST, FIRST + 1, ...
 //   PenumbraFuzzReplay FILE...         inputs that a fuzzer found
 
-#include <unistd.h>
+#include "SeedOnCrash.h"
 
-#include <array>
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -28,18 +24,6 @@ namespace
 
 /// As long as most of what a target reads.
 constexpr unsigned MostBytes = 600;
-
-/// What is being tried, for the message of a crash.
-std::array<char, 80> Repeat{};
-
-void TellSeed(int signal)
-{
-  if (write(STDERR_FILENO, Repeat.data(), std::strlen(Repeat.data())) >= 0)
-  {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
 
 std::vector<std::uint8_t> MakeInput(unsigned seed)
 {
@@ -79,13 +63,9 @@ int main(int argc, char** argv)
     return ReplayFiles(argc - 1, argv + 1);
   }
   const auto first = static_cast<unsigned>(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
-  for (const int signal : { SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL })
-  {
-    std::signal(signal, TellSeed);
-  }
   for (unsigned seed = first; seed < first + count; ++seed)
   {
-    std::snprintf(Repeat.data(), Repeat.size(), "To repeat: PenumbraFuzzReplay 1 %u\n", seed);
+    SeedOnCrash::Set("PenumbraFuzzReplay 1 " + std::to_string(seed));
     const std::vector<std::uint8_t> input = MakeInput(seed);
     LLVMFuzzerTestOneInput(input.data(), input.size());
   }
