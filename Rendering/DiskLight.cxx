@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace penumbra
 {
@@ -180,11 +181,14 @@ DiskLight DiskLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& n
   const double height = glm::dot(this->Centre - point, normal);
   const glm::dvec3 across = normal - glm::dot(normal, this->Normal) * this->Normal;
   const double reach = this->Radius * glm::length(across); // of the heights around the centre's
-  if (height < 0.0 ? -height >= reach : reach == 0.0 && height == 0.0)
+  // As of a polygon: what is no higher than the rounding of the coordinates lies in the plane.
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() *
+    (std::max(glm::length(point), glm::length(this->Centre)) + this->Radius);
+  if (height + reach <= rounding)
   {
     result.Radius = 0.0; // below the plane or in it
   }
-  else if (height < reach)
+  else if (height < reach && reach > rounding)
   {
     result.CutDirection = glm::normalize(across);
     result.CutOffset = -height / reach;
