@@ -140,6 +140,7 @@ public:
   Maker(unsigned seed, FuzzedKind kind)
     : Random(seed)
     , IsNasty(kind == FuzzedKind::Nasty)
+    , HasNastyOccluders(kind != FuzzedKind::Tame)
   {
   }
 
@@ -184,8 +185,18 @@ private:
     return this->At(scene, u, this->Random.Between(low, high), h);
   }
 
+  /// Right over a texel's centre.
+  glm::dvec3 OverTexel(const FuzzedScene& scene, double h)
+  {
+    const auto i = this->Random.Below(static_cast<std::size_t>(scene.Texels.x));
+    const auto j = this->Random.Below(static_cast<std::size_t>(scene.Texels.y));
+    return this->At(scene, (static_cast<double>(i) + 0.5) / scene.Texels.x,
+      (static_cast<double>(j) + 0.5) / scene.Texels.y, h);
+  }
+
   RandomGeometry Random;
   bool IsNasty;
+  bool HasNastyOccluders;
 };
 
 void Maker::MakeReceiver(FuzzedScene& scene)
@@ -235,11 +246,11 @@ double Maker::GetHeight()
   switch (this->Random.Below(4))
   {
     case 0:
-      return std::pow(10.0, this->Random.Between(-9.0, -1.0));
+      return std::pow(10.0, this->Random.Between(-15.0, -1.0));
     case 1:
       return 0.0;
     case 2:
-      return this->Scale(10.0, 1e6);
+      return this->Scale(10.0, 1e15);
     default:
       return this->Random.Between(-1.0, 0.2);
   }
@@ -279,7 +290,9 @@ FuzzedLight Maker::MakeLight(const FuzzedScene& scene)
   s.Shape = static_cast<LightKind>(this->Random.Below(kinds));
   const double size = std::sqrt(glm::length(glm::cross(scene.Base.EdgeX, scene.Base.EdgeY)));
   const glm::dvec3 up = glm::normalize(glm::cross(scene.Base.EdgeX, scene.Base.EdgeY));
-  const glm::dvec3 centre = this->Anywhere(scene, -0.3, 1.3, this->GetHeight());
+  const glm::dvec3 centre = this->NastyOneIn(4)
+    ? this->OverTexel(scene, this->GetHeight())
+    : this->Anywhere(scene, -0.3, 1.3, this->GetHeight());
   // Tame lights do not reach the receiver's plane.
   const double tilt = this->IsNasty && this->OneIn(3) ? 1.0 : 0.3;
   const double extent = size * this->Scale(0.02, 0.25);
@@ -321,7 +334,7 @@ FuzzedTriangle Maker::MakeTriangle(const FuzzedScene& scene)
   const double extent = size * this->Scale(0.1, 0.8);
   FuzzedTriangle t;
   std::generate(t.begin(), t.end(), [&] { return place + this->Random.InBox(extent); });
-  if (!this->NastyOneIn(2))
+  if (!this->HasNastyOccluders || this->OneIn(2))
   {
     return t;
   }
@@ -357,7 +370,7 @@ FuzzedTriangle Maker::MakeTriangle(const FuzzedScene& scene)
     default: // a hair above the receiver
       std::generate(t.begin(), t.end(),
         [&]
-        { return this->Anywhere(scene, 0.0, 1.0, std::pow(10.0, -this->Random.Between(3, 9))); });
+        { return this->Anywhere(scene, 0.0, 1.0, std::pow(10.0, -this->Random.Between(3, 6))); });
   }
   return t;
 }
@@ -379,7 +392,7 @@ void Maker::AddOccluder(FuzzedScene& scene)
       scene.Occluders.push_back({ t[i], t[(i + 1) % 3], top });
     }
   }
-  if (this->NastyOneIn(8))
+  if (this->OneIn(8) && this->HasNastyOccluders)
   {
     scene.Occluders.push_back(scene.Occluders.back());
   }

@@ -54,10 +54,13 @@ std::ostream& operator<<(std::ostream& os, const FuzzedScene& scene);
 /// What a generator may put into a scene.
 enum class FuzzedKind
 {
-  Tame, ///< lights well above the receiver, occluders of its size
-  /// Also: lights that are cut by the receiver's plane, touch it, are a hair above it, or behind
-  /// it; triangles that rest on it, lie in it, cross it, touch the light, are behind it, enormous,
-  /// slivers, without area, or there twice; receivers of 1 degree and of 1 : 100.
+  /// Lights well above the receiver, occluders of its size.
+  Tame,
+  /// Also triangles that rest on the receiver, lie in it, cross it, are a hair above it, touch the
+  /// light, are behind it, enormous, slivers, without area, or there twice.
+  NastyOccluders,
+  /// Also lights that are cut by the receiver's plane, touch it, are a hair above it, right over a
+  /// texel's centre, 1e15 sizes away, or behind it; receivers of 1 degree and of 1 : 100.
   Nasty
 };
 

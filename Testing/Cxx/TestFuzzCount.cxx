@@ -25,7 +25,11 @@ namespace
 class FuzzCount : public testing::TestWithParam<unsigned>
 {
 protected:
-  unsigned GetFirst(unsigned count) const { return 1 + this->GetParam() * count; }
+  /// Each property has scenes of its own.
+  unsigned GetFirst(unsigned property, unsigned count) const
+  {
+    return 100000 * property + this->GetParam() * count;
+  }
 };
 
 using Texels = std::vector<glm::vec4>;
@@ -126,7 +130,8 @@ FuzzedScene Split(FuzzedScene scene, unsigned seed)
 TEST_P(FuzzCount, ExactCount)
 {
   constexpr unsigned count = 400;
-  ExpectProperty("beyond the exact count", FuzzedKind::Tame, this->GetFirst(count), count,
+  ExpectProperty("beyond the exact count", FuzzedKind::NastyOccluders, this->GetFirst(11, count),
+    count,
     [](const FuzzedScene& scene, unsigned) { return CompareWithCount(WithoutFilters(scene)); });
 }
 
@@ -135,7 +140,8 @@ TEST_P(FuzzCount, ExactCount)
 TEST_P(FuzzCount, RigidMotion)
 {
   constexpr unsigned count = 300;
-  ExpectProperty("changed by a motion", FuzzedKind::Tame, this->GetFirst(count), count,
+  ExpectProperty("changed by a motion", FuzzedKind::NastyOccluders, this->GetFirst(12, count),
+    count,
     [](FuzzedScene scene, unsigned seed)
     {
       scene = WithoutFilters(scene);
@@ -155,12 +161,143 @@ TEST_P(FuzzCount, RigidMotion)
 TEST_P(FuzzCount, SplitTriangles)
 {
   constexpr unsigned count = 300;
-  ExpectProperty("changed by splitting triangles", FuzzedKind::Tame, this->GetFirst(count), count,
+  ExpectProperty("changed by splitting triangles", FuzzedKind::NastyOccluders,
+    this->GetFirst(13, count), count,
     [](FuzzedScene scene, unsigned seed)
     {
       scene = WithoutFilters(scene);
       return Deviation{ GetError(Bake(Split(scene, seed).Make()), CountExactly(scene)),
         GetRadianceBound(scene.Settings.GetSampleCount()) };
+    });
+}
+
+namespace
+{
+
+/// A lamp as a receiver, lit by the receiver as a lamp: what either sends the other is the same.
+struct Pair
+{
+  FuzzedScene Lit;       ///< the scene's receiver, lit by the lamp
+  FuzzedScene LampIsLit; ///< the lamp as a receiver, lit by the scene's
+};
+
+/// The texels of a lamp that are the cells of its uniform grid.
+glm::ivec2 GetGrid(const penumbra::Light& lamp, int samples)
+{
+  const double aspect = lamp->GetAspect();
+  const int columns =
+    static_cast<int>(std::lround(std::clamp(std::sqrt(samples * aspect), 1.0, double(samples))));
+  return { columns, (samples + columns - 1) / columns };
+}
+
+FuzzedLight MakeLamp(const penumbra::Parallelogram& base)
+{
+  FuzzedLight lamp;
+  lamp.Settings.Origin = base.Corner;
+  lamp.Settings.Point1 = base.Corner + base.EdgeX;
+  lamp.Settings.Point2 = base.Corner + base.EdgeY;
+  return lamp;
+}
+
+/// The receiver of a scene, and over it a lamp that faces it, wholly in front, as it is of the
+/// lamp.
+Pair MakePair(FuzzedScene scene, unsigned seed)
+{
+  constexpr int uniformGrid = 3;
+  RandomGeometry random(seed);
+  const penumbra::ReceiverFrame frame(scene.Base, penumbra::ReceiverFrame::Side::Front);
+  const double size = frame.GetSize();
+  penumbra::Parallelogram& base = scene.Base;
+  const double u = random.Between(-0.3, 0.8), v = random.Between(-0.3, 0.8);
+  const glm::dvec3 up = frame.GetNormal();
+  const glm::dvec3 x = glm::normalize(base.EdgeX), y = glm::cross(up, x);
+  // Less than 1 in 8 down over its length, at least half its size above the receiver.
+  const auto tilted = [&](const glm::dvec3& edge)
+  { return edge + random.Between(-0.1, 0.1) * glm::length(edge) * up; };
+  penumbra::Parallelogram lamp;
+  lamp.Corner =
+    base.Corner + u * base.EdgeX + v * base.EdgeY + random.Between(1.0, 3.0) * size * up;
+  lamp.EdgeX = tilted(size * random.Between(0.2, 0.8) * (y + random.Between(-0.5, 0.5) * x));
+  lamp.EdgeY = tilted(size * random.Between(0.2, 0.8) * x);
+
+  scene.Settings.SamplingPattern = uniformGrid;
+  scene.Settings.Side = penumbra::ReceiverSide::Front;
+  scene.Lights = { MakeLamp(lamp) };
+  Pair pair{ WithoutFilters(scene), WithoutFilters(scene) };
+  pair.LampIsLit.Base = lamp;
+  pair.LampIsLit.Lights = { MakeLamp(base) };
+  // Each samples the other at the centres of its texels.
+  pair.Lit.Texels = GetGrid(pair.LampIsLit.Lights[0].Make(), scene.Settings.LightSamples);
+  pair.LampIsLit.Texels = GetGrid(pair.Lit.Lights[0].Make(), scene.Settings.LightSamples);
+  return pair;
+}
+
+/// An integral over a receiver.
+struct Integral
+{
+  double Sum = 0.0;
+  double Open = 0.0;     ///< how much of it open rays leave undecided
+  double Rounding = 0.0; ///< how much of it may be the roundings of floats
+};
+
+/// The sum over all texels of their area times their irradiance, as the samples alone have it: the
+/// bake's closed form is divided out, and the samples' mean put in its place.
+Integral IntegrateSamples(const FuzzedScene& scene)
+{
+  const penumbra::ShadowScene made = scene.Make();
+  const Texels texels = Bake(made);
+  const ExactCount count = CountExactly(scene);
+  const penumbra::Light& light = made.Lights.front();
+  const penumbra::ReceiverFrame frame = made.MakeFrame(made.Receivers.front());
+  const std::vector<penumbra::LightSample> samples =
+    light->TakeSamples(penumbra::GetSamplingPatterns()[3].Generate(
+      scene.Settings.LightSamples, 0, light->GetAspect()));
+  const double area = frame.GetSize() * frame.GetSize() / (scene.Texels.x * scene.Texels.y);
+  const double rounding = count.Peak * GetRadianceBound(scene.Settings.LightSamples);
+  Integral result;
+  for (int i = 0; i < scene.Texels.x * scene.Texels.y; ++i)
+  {
+    const glm::dvec2 uv =
+      (glm::dvec2(i % scene.Texels.x, i / scene.Texels.x) + 0.5) / glm::dvec2(scene.Texels);
+    const glm::dvec3 x = frame.ToWorld({ uv, 0.0 });
+    double mean = 0.0;
+    for (const penumbra::LightSample& sample : samples)
+    {
+      const glm::dvec3 d = sample.Place - x;
+      const double r2 = glm::dot(d, d);
+      mean += glm::dot(frame.GetNormal(), d) * std::abs(glm::dot(light->GetAxis(), d)) / (r2 * r2) *
+        light->GetMeasure() / (glm::pi<double>() * static_cast<double>(samples.size()));
+    }
+    const double factor = area * mean / light->FormFactor(x, frame.GetNormal());
+    const auto texel = static_cast<std::size_t>(i);
+    result.Sum += factor * static_cast<double>(texels[texel].r);
+    result.Open += factor * (count.High[texel].r - count.Low[texel].r);
+    result.Rounding += factor * rounding;
+  }
+  return result;
+}
+
+} // namespace
+
+/**
+ * What a surface A gets of B is what B gets of A: the integral over both of cosines over pi r^2,
+ * where they see each other. With the texels of each at the samples of the other, both bakes take
+ * the same sum over the same rays, but for the closed form that each puts in place of its samples'
+ * mean; that is divided out in double. What is left are rays that are open on either side, and the
+ * roundings of every texel.
+ */
+TEST_P(FuzzCount, Reciprocity)
+{
+  constexpr unsigned count = 200;
+  ExpectProperty("not reciprocal, beyond open rays", FuzzedKind::NastyOccluders,
+    this->GetFirst(14, count), count,
+    [](const FuzzedScene& scene, unsigned seed)
+    {
+      const Pair pair = MakePair(scene, seed);
+      const Integral lit = IntegrateSamples(pair.Lit), lamp = IntegrateSamples(pair.LampIsLit);
+      const double off = std::abs(lit.Sum - lamp.Sum) - lit.Open - lamp.Open;
+      const double size = std::max({ lit.Sum, lamp.Sum, static_cast<double>(FLT_MIN) });
+      return Deviation{ std::max(off, 0.0) / size, (lit.Rounding + lamp.Rounding) / size };
     });
 }
 

@@ -22,7 +22,11 @@ using Texels = vtkRadianceTexture::Texels;
 class FuzzScenes : public testing::TestWithParam<unsigned>
 {
 protected:
-  unsigned GetFirst(unsigned count) const { return 1 + this->GetParam() * count; }
+  /// Each property has scenes of its own.
+  unsigned GetFirst(unsigned property, unsigned count) const
+  {
+    return 100000 * property + this->GetParam() * count;
+  }
 };
 
 Texels Bake(const FuzzedScene& scene)
@@ -82,7 +86,7 @@ TEST_P(FuzzScenes, FiniteAndVisibilityFromZeroToOne)
 {
   constexpr unsigned count = 1500;
   ExpectProperty("texels that are not finite or out of range", FuzzedKind::Nasty,
-    this->GetFirst(count), count,
+    this->GetFirst(1, count), count,
     [](const FuzzedScene& scene, unsigned) { return CountBadTexels(Bake(scene)); });
 }
 
@@ -90,7 +94,8 @@ TEST_P(FuzzScenes, FiniteAndVisibilityFromZeroToOne)
 TEST_P(FuzzScenes, FromAmbientToTheClosedForm)
 {
   constexpr unsigned count = 500;
-  ExpectProperty("brighter than without occluders", FuzzedKind::Nasty, this->GetFirst(count), count,
+  ExpectProperty("brighter than without occluders", FuzzedKind::Nasty, this->GetFirst(2, count),
+    count,
     [](const FuzzedScene& scene, unsigned) {
       return Deviation{ GetExcess(Bake(scene), Bake(WithoutOccluders(scene))), 0.0 };
     });
@@ -102,7 +107,8 @@ TEST_P(FuzzScenes, FromAmbientToTheClosedForm)
 TEST_P(FuzzScenes, AnOccluderNeverBrightens)
 {
   constexpr unsigned count = 500;
-  ExpectProperty("brighter with an occluder more", FuzzedKind::Nasty, this->GetFirst(count), count,
+  ExpectProperty("brighter with an occluder more", FuzzedKind::Nasty, this->GetFirst(3, count),
+    count,
     [](FuzzedScene scene, unsigned seed)
     {
       scene.Settings.Reconstruction = false;
@@ -123,7 +129,7 @@ TEST_P(FuzzScenes, AnOccluderNeverBrightens)
 TEST_P(FuzzScenes, ALightNeverDarkens)
 {
   constexpr unsigned count = 500;
-  ExpectProperty("darker with a light more", FuzzedKind::Nasty, this->GetFirst(count), count,
+  ExpectProperty("darker with a light more", FuzzedKind::Nasty, this->GetFirst(4, count), count,
     [](FuzzedScene scene, unsigned)
     {
       if (scene.Settings.Side == penumbra::ReceiverSide::Auto)
@@ -143,7 +149,8 @@ TEST_P(FuzzScenes, ALightNeverDarkens)
 TEST_P(FuzzScenes, LinearInTheRadianceOfAllLights)
 {
   constexpr unsigned count = 500;
-  ExpectProperty("off by a factor of all radiances", FuzzedKind::Tame, this->GetFirst(count), count,
+  ExpectProperty("off by a factor of all radiances", FuzzedKind::Tame, this->GetFirst(5, count),
+    count,
     [](const FuzzedScene& scene, unsigned)
     {
       constexpr float factor = 8.0f;
@@ -170,7 +177,8 @@ TEST_P(FuzzScenes, LinearInTheRadianceOfAllLights)
 TEST_P(FuzzScenes, LightsAddUp)
 {
   constexpr unsigned count = 300;
-  ExpectProperty("off the sum of the lights' bakes", FuzzedKind::Tame, this->GetFirst(count), count,
+  ExpectProperty("off the sum of the lights' bakes", FuzzedKind::Tame, this->GetFirst(6, count),
+    count,
     [](FuzzedScene scene, unsigned)
     {
       scene.Settings.Supersampling = 1; // its filter has roundings of its own
