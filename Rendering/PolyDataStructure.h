@@ -17,9 +17,9 @@ namespace penumbra
 {
 
 /**
- * What in the data would have VTK read what is not there, and what is allowed: offsets of cells that
- * are out of order, cells that name points that the data do not have, strips of fewer than three
- * points. Empty if all is well.
+ * What in the data would have VTK read what is not there, and what is allowed: offsets of cells
+ * that are out of order, cells that name points that the data do not have, strips of fewer than
+ * three points. Empty if all is well.
  *
  * VTK's own filters and mappers take this for granted, and crash where it is not so: to be asked
  * before they see the data.
