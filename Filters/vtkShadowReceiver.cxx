@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowReceiver.h"
 
+#include "PolyDataStructure.h"
 #include "ShadowSettings.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -22,6 +23,14 @@ int vtkShadowReceiver::RequestData(
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const std::string structure = penumbra::FindStructureProblem(input);
+  if (!structure.empty())
+  {
+    // VTK could not draw it either: the output stays empty, but for what was said of it.
+    vtkErrorMacro("ShadowReceiver: " << structure << ".");
+    vtkShadowFieldData::WriteRefusal(structure, output->GetFieldData());
+    return 1;
+  }
   output->ShallowCopy(input);
 
   penumbra::ReceiverSettings settings;

@@ -91,10 +91,12 @@ bool vtkVisibilityShare::SetSamples(
   const double power = glm::dot(channels, this->Power);
   for (const penumbra::LightSample& sample : samples)
   {
-    places.push_back(sample.IsDirection
-        ? glm::vec4(
-            glm::vec3(this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()), 0.0f)
-        : glm::vec4(glm::vec3(this->Frame.ToMetric(sample.Place)), 1.0f));
+    glm::dvec3 place = sample.IsDirection
+      ? this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()
+      : this->Frame.ToMetric(sample.Place);
+    // What is below the plane is rounding; a weight below 0 would take shares out of [0, 1].
+    place.z = std::max(place.z, 0.0);
+    places.emplace_back(place, sample.IsDirection ? 0.0 : 1.0);
     const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
     cells.emplace_back(
       glm::vec3(normal), power > 0.0 ? glm::dot(channels, sample.Power) / power : 0.0);

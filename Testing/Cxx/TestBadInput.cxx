@@ -154,6 +154,45 @@ TEST(BadInput, NaNInDataOfAMap)
   messages.ExpectOne({ "Receivers[1]", "not finite", "allowed" });
 }
 
+// VTK takes it for granted that cells name points, and crashes.
+TEST(BadInput, CellsThatNameNoPoints)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> producer;
+  const vtkSmartPointer<vtkPolyData> data = MakeTriangle(0.0);
+  data->GetPolys()->InsertNextCell({ 0, 1, 3 });
+  producer->SetOutput(data);
+  vtkNew<vtkShadowReceiver> receiver;
+  vtkNew<vtkAreaLightFromSurface> light;
+  for (vtkAlgorithm* filter : std::initializer_list<vtkAlgorithm*>{ receiver, light })
+  {
+    filter->SetInputConnection(producer->GetOutputPort());
+    const Messages messages;
+    filter->Update();
+    messages.ExpectOne({ "polygon 1 names point 3; allowed: 0 to 2" });
+    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+  }
+  floor.Map->AddInputConnection(vtkRadianceMap::RECEIVERS, receiver->GetOutputPort());
+  floor.Map->AddInputConnection(vtkRadianceMap::LIGHTS, light->GetOutputPort());
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, producer->GetOutputPort());
+  const Messages messages;
+  floor.ExpectFinite();
+  messages.ExpectOne({ "Occluders[0]", "polygon 1 names point 3; allowed: 0 to 2" });
+}
+
+// Finite, and yet too large for the square of an area.
+TEST(BadInput, HugeCoordinates)
+{
+  for (const double x : { 1e76, -1e200 })
+  {
+    vtkNew<vtkShadowReceiver> receiver;
+    receiver->SetInputData(MakeTriangle(x));
+    const Messages messages;
+    receiver->Update();
+    messages.ExpectOne({ "ShadowReceiver", "beyond 1e75", "allowed" });
+  }
+}
+
 // What was refused for another reason, and has a NaN since, has two things to be said of it.
 TEST(BadInput, NaNAfterARefusal)
 {
@@ -407,6 +446,27 @@ TEST(BadInput, RadianceArrayOfTwoComponents)
   PaneLight light;
   light.SetArray({ 1.0, 2.0 });
   light.ExpectRefused({ "AreaLightFromSurface", "'Glow' has 2 components", "allowed: 1 or 3" });
+}
+
+TEST(BadInput, CellArrayOfAnotherSize)
+{
+  PaneLight light;
+  light.SetArray({ 1.0, 1.0, 1.0 });
+  light.Pane->GetCellData()->GetArray("Glow")->InsertNextTuple3(1.0, 1.0, 1.0);
+  light.ExpectRefused({ "AreaLightFromSurface", "'Glow' has 2 values", "each of the 1 cells" });
+}
+
+// A refused surface emits nothing, even if its input was a light before.
+TEST(BadInput, RefusedSurfaceOfALight)
+{
+  FloorMap floor;
+  vtkNew<vtkAreaLightFromSurface> surface;
+  surface->SetInputConnection(floor.Light->GetOutputPort());
+  surface->SetRadiance(-1.0, 1.0, 1.0);
+  const Messages messages;
+  surface->Update();
+  messages.ExpectOne({ "AreaLightFromSurface", "Radiance is (-1, " });
+  EXPECT_FALSE(vtkShadowFieldData::ReadLight(surface->GetOutput()->GetFieldData()));
 }
 
 TEST(BadInput, RadianceArrayOutOfRange)
