@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 vtkStandardNewMacro(vtkRadianceTexture);
 
@@ -26,6 +27,19 @@ namespace
 constexpr int GutterTexels = 8;
 constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
+
+/// What graphics processors have offered for decades.
+constexpr int HardwareAnisotropy = 16;
+
+/// Whether OpenGL is known to run on the central processor.
+bool IsSoftwareOpenGL()
+{
+  const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer = text ? text : "";
+  const auto names = { "llvmpipe", "softpipe", "SWR", "SwiftShader", "Software Rasterizer" };
+  return std::any_of(names.begin(), names.end(),
+    [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
 
 vtkSmartPointer<vtkTextureObject> MakeTexture()
 {
@@ -191,18 +205,25 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const Region& regi
 
 void vtkRadianceTexture::GenerateMipmaps()
 {
-  if (!this->HasMipmaps)
-  {
-    this->GenerateMipmaps(this->Irradiance);
-    this->HasMipmaps = true;
-  }
+  this->GenerateMipmaps(this->Irradiance);
+  this->HasMipmaps = true;
+}
+
+void vtkRadianceTexture::SetMaximumAnisotropy(int ratio)
+{
+  this->MaximumAnisotropy = ratio;
 }
 
 void vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture) const
 {
   // On software OpenGL, blending two levels and anisotropy would double a frame's time.
-  texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
-  texture->SetMaximumAnisotropicFiltering(1.0f);
+  const int anisotropy = this->MaximumAnisotropy > 0 ? this->MaximumAnisotropy
+    : IsSoftwareOpenGL()                             ? 1
+                                                     : HardwareAnisotropy;
+  texture->SetMinificationFilter(
+    anisotropy > 1 ? vtkTextureObject::LinearMipmapLinear : vtkTextureObject::LinearMipmapNearest);
+  // An atlas has none: a long footprint would reach past the gutter.
+  texture->SetMaximumAnisotropicFiltering(this->Gutter > 0 ? 1.0f : static_cast<float>(anisotropy));
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
   texture->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
   texture->Activate();
@@ -326,4 +347,5 @@ void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
   os << indent << "Regions: " << this->Regions.size() << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
 }

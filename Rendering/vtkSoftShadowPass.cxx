@@ -330,6 +330,11 @@ void vtkSoftShadowPass::ChooseShading()
     const int shading = keys && keys->Has(DESIGNATED()) ? keys->Get(DESIGNATED()) : this->Shading;
     const bool isMatte = IsMatte(shown.Prop);
     const bool isOther = shading != shown.Shading;
+    if (shown.Texture->GetMaximumAnisotropy() != this->MaximumAnisotropy)
+    {
+      shown.Texture->SetMaximumAnisotropy(this->MaximumAnisotropy);
+      shown.HasShownTexture = false;
+    }
     if (isOther || isMatte != shown.IsMatte)
     {
       shown.Shading = shading;
@@ -522,6 +527,7 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Shading: " << this->Shading << "\n";
   os << indent << "OnlyDesignated: " << this->OnlyDesignated << "\n";
   os << indent << "KeepBakes: " << this->KeepBakes << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

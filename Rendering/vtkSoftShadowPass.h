@@ -97,6 +97,16 @@ public:
 
   ///@{
   /**
+   * How long a part of a texture a pixel may show, in its widths, without being blurred, 1 to 16:
+   * shadows stay sharp where a floor is seen at a grazing angle. Default is 0: 16 on graphics
+   * processors, and 1 on software OpenGL, whose frames it would make about twice as long.
+   */
+  vtkSetClampMacro(MaximumAnisotropy, int, 0, 16);
+  vtkGetMacro(MaximumAnisotropy, int);
+  ///@}
+
+  ///@{
+  /**
    * Name a prop as a receiver with a shading mode of its own, or take that back. It is written into
    * the prop's property keys, for all passes.
    */
@@ -161,6 +171,7 @@ private:
   int Shading = SHADOW;
   bool OnlyDesignated = false;
   bool KeepBakes = false;
+  int MaximumAnisotropy = 0;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;
   std::unique_ptr<Internals> Impl;
