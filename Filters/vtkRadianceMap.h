@@ -72,6 +72,9 @@ protected:
   ~vtkRadianceMap() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /// Whatever piece is asked for, all of the scene: a shadow may come from anywhere.
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

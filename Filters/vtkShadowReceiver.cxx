@@ -9,6 +9,7 @@
 #include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -38,6 +39,14 @@ int vtkShadowReceiver::RequestData(
   settings.ErrorTolerance = this->ErrorTolerance;
   settings.MaximumLightSamples = this->MaximumLightSamples;
   settings.Reconstruction = this->Reconstruction;
+  // Of data that are spread over processes, some may hold nothing.
+  const int pieces = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces > 1 && input->GetNumberOfCells() == 0)
+  {
+    vtkShadowFieldData::WriteRefusal("this process holds none of it", output->GetFieldData());
+    return 1;
+  }
   std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input);
   if (problem.empty())
   {

@@ -44,6 +44,7 @@ private:
   void operator=(const vtkSoftShadowReceiverRepresentation&) = delete;
 
   int ShadowShading = 0;
+  bool HasWarned = false; ///< that shadows are missing, once
 };
 
 #endif

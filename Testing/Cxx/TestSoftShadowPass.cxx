@@ -213,6 +213,39 @@ TEST(SoftShadowPass, TexelsAreThoseOfRadianceMap)
 
 // Polygons, triangles, strips, blocks of composite data and parts of assemblies are the same
 // occluder.
+// A shadow may come from anywhere: the first of several processes bakes all, the others nothing.
+// A sphere gives each of them only a part of itself.
+TEST(RadianceMap, TheFirstPieceIsEverything)
+{
+  FloorScene scene;
+  vtkNew<vtkRadianceMap> map;
+  map->AddInputConnection(vtkRadianceMap::RECEIVERS, scene.Receiver->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::OCCLUDERS, scene.Sphere->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::LIGHTS, scene.Light->GetOutputPort());
+  const auto bake = [&](int piece, int pieces)
+  {
+    std::vector<float> texels;
+    map->UpdatePiece(piece, pieces, 0);
+    for (unsigned int i = 0; i < map->GetOutput()->GetNumberOfBlocks(); ++i)
+    {
+      auto* grid = vtkStructuredGrid::SafeDownCast(map->GetOutput()->GetBlock(i));
+      if (!grid)
+      {
+        continue; // writers want the same blocks in all pieces
+      }
+      auto* radiance = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("Radiance"));
+      texels.insert(texels.end(), radiance->GetPointer(0),
+        radiance->GetPointer(0) + radiance->GetNumberOfValues());
+    }
+    return texels;
+  };
+  const std::vector<float> all = bake(0, 1);
+  EXPECT_EQ(all.size(), 3u * 64 * 64);
+  EXPECT_EQ(bake(0, 2), all);
+  EXPECT_EQ(bake(1, 2), std::vector<float>());
+  EXPECT_EQ(map->GetOutput()->GetNumberOfBlocks(), 1u);
+}
+
 TEST(SoftShadowPass, AllKindsOfSurfacesBlockAlike)
 {
   FloorScene scene;
