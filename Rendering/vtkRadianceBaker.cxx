@@ -192,6 +192,11 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     {
       job.Result.StoppedBy = "MaximumLightSamples";
     }
+    if (hasTolerance && count == 1 && job.Result.Effects[light] == penumbra::Effect::Soft &&
+      job.TakeSamples(light, 2).size() > 1)
+    {
+      job.Result.StoppedBy = "MaximumLightSamples"; // one sample has no halves, and no estimate
+    }
     if (job.Result.Effects[light] != penumbra::Effect::None && !this->BakeLight(job, light, count))
     {
       return false;
