@@ -10,6 +10,7 @@
 #include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -54,6 +55,14 @@ int vtkShadowReceiver::RequestData(
   settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
   settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
   settings.ProxyNormal = glm::make_vec3(this->ProxyNormal);
+  // Of data that are spread over processes, some may hold nothing.
+  const int pieces = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces > 1 && input->GetNumberOfCells() == 0)
+  {
+    vtkShadowFieldData::WriteRefusal("this process holds none of it", output->GetFieldData());
+    return 1;
+  }
   const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {

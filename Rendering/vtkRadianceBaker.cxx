@@ -264,6 +264,11 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     }
     count = job.Wanted.MostSamples > 0 ? std::min(count, job.Wanted.MostSamples) : count;
     const double start = vtkTimerLog::GetUniversalTime();
+    if (hasTolerance && count == 1 && job.Plan.Pairs[light].Needed == penumbra::Effect::Soft &&
+      job.TakeSamples(light, 2).size() > 1)
+    {
+      job.Result.StoppedBy = "MaximumLightSamples"; // one sample has no halves, and no estimate
+    }
     if (!this->BakeLight(job, light, count))
     {
       return false;

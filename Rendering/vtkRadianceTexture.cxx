@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 vtkStandardNewMacro(vtkRadianceTexture);
 
@@ -27,6 +28,19 @@ namespace
 constexpr int GutterTexels = 8;
 constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
+
+/// What graphics processors have offered for decades.
+constexpr int HardwareAnisotropy = 16;
+
+/// Whether OpenGL is known to run on the central processor.
+bool IsSoftwareOpenGL()
+{
+  const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer = text ? text : "";
+  const auto names = { "llvmpipe", "softpipe", "SWR", "SwiftShader", "Software Rasterizer" };
+  return std::any_of(names.begin(), names.end(),
+    [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
 
 vtkSmartPointer<vtkTextureObject> MakeTexture()
 {
@@ -195,12 +209,22 @@ bool vtkRadianceTexture::GenerateMipmaps()
   return this->HasMipmaps;
 }
 
+void vtkRadianceTexture::SetMaximumAnisotropy(int ratio)
+{
+  this->MaximumAnisotropy = ratio;
+}
+
 bool vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture)
 {
   penumbra::ForgetOpenGLErrors();
   // On software OpenGL, blending two levels and anisotropy would double a frame's time.
-  texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
-  texture->SetMaximumAnisotropicFiltering(1.0f);
+  const int anisotropy = this->MaximumAnisotropy > 0 ? this->MaximumAnisotropy
+    : IsSoftwareOpenGL()                             ? 1
+                                                     : HardwareAnisotropy;
+  texture->SetMinificationFilter(
+    anisotropy > 1 ? vtkTextureObject::LinearMipmapLinear : vtkTextureObject::LinearMipmapNearest);
+  // An atlas has none: a long footprint would reach past the gutter.
+  texture->SetMaximumAnisotropicFiltering(this->Gutter > 0 ? 1.0f : static_cast<float>(anisotropy));
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
   texture->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
   texture->Activate();
@@ -335,4 +359,5 @@ void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
   os << indent << "Regions: " << this->Regions.size() << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
 }

@@ -97,6 +97,18 @@ public:
   bool Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
     const penumbra::TexelRectangle& rectangle, int factor);
 
+  ///@{
+  /**
+   * How many times as long as wide the part of the texture may be that a pixel shows, as floors
+   * have it near the horizon, without being blurred to its length. 1 is the cheapest and takes the
+   * nearest mip level; more blends two levels. Takes effect with the next GenerateMipmaps().
+   * Default is 0: 16 on graphics processors, 1 where OpenGL is software. Levels of an atlas of
+   * several receivers are blended, but not anisotropic.
+   */
+  void SetMaximumAnisotropy(int ratio);
+  int GetMaximumAnisotropy() const { return this->MaximumAnisotropy; }
+  ///@}
+
   /**
    * Make the mip levels of the irradiance, after the last region is filled, to show it. False,
    * after vtkErrorMacro, if OpenGL refuses.
@@ -156,6 +168,7 @@ private:
   std::vector<Region> Regions;
   glm::ivec2 Size{ 0 };
   int Gutter = 0;
+  int MaximumAnisotropy = 0;
   bool HasVariance = false;
   bool HasMipmaps = false;
 };

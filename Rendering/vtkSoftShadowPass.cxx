@@ -480,6 +480,12 @@ void vtkSoftShadowPass::ChooseShading()
     const int shading = this->GetShadingOf(shown.Prop);
     const bool isMatte = IsMatte(shown.Prop);
     const bool isOther = shading != shown.Shading;
+    vtkRadianceTexture* texture = shown.Baked->GetTexture();
+    if (texture->GetMaximumAnisotropy() != this->MaximumAnisotropy)
+    {
+      texture->SetMaximumAnisotropy(this->MaximumAnisotropy);
+      shown.WasTried = false;
+    }
     if (isOther || isMatte != shown.IsMatte)
     {
       shown.Shading = shading;
@@ -712,6 +718,7 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BakeMode: " << this->BakeMode << "\n";
   os << indent << "BatchSeconds: " << this->BatchSeconds << "\n";
   os << indent << "BakeProgress: " << this->GetBakeProgress() << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

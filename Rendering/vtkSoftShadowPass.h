@@ -127,6 +127,16 @@ public:
 
   ///@{
   /**
+   * How long a part of a texture a pixel may show, in its widths, without being blurred, 1 to 16:
+   * shadows stay sharp where a floor is seen at a grazing angle. Default is 0: 16 on graphics
+   * processors, and 1 on software OpenGL, whose frames it would make about twice as long.
+   */
+  vtkSetClampMacro(MaximumAnisotropy, int, 0, 16);
+  vtkGetMacro(MaximumAnisotropy, int);
+  ///@}
+
+  ///@{
+  /**
    * Name a prop as a receiver with a shading mode of its own, or take that back. It is written into
    * the prop's property keys, for all passes.
    */
@@ -205,6 +215,7 @@ private:
   int BakeMode = COMPLETE;
   double BatchSeconds = 0.1;
   double ReportedProgress = 1.0;
+  int MaximumAnisotropy = 0;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;
   std::unique_ptr<Internals> Impl;

@@ -120,6 +120,17 @@ TEST(BadInput, EmptyReceiver)
   messages.ExpectOne({ "ShadowReceiver", "no polygon", "allowed" });
 }
 
+// In a parallel run, a process may hold none of the receiver, which is nothing wrong.
+TEST(BadInput, EmptyPieceOfAReceiver)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(empty);
+  const Messages messages;
+  receiver->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(messages.GetText(), "");
+}
+
 TEST(BadInput, NaNInReceiver)
 {
   vtkNew<vtkShadowReceiver> receiver;

@@ -507,8 +507,10 @@ TEST(StabilityFault, ContextOfAViewIsMadeAnew)
   scene.Window->WindowRemap();
   ExpectSameFrame("after WindowRemap()", scene.Render(), good);
   scene.Window->Finalize();
-  scene.Pass->KeepBakesOn();
-  ExpectSameFrame("after Finalize(), with bakes to be kept", scene.Render(), good);
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::DRAFT);
+  scene.Render();
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::COMPLETE);
+  ExpectSameFrame("after Finalize() and a draft", scene.Render(), good);
   EXPECT_EQ(messages.GetText(), "");
 }
 
@@ -606,12 +608,14 @@ TEST(StabilityFault, TwoWindowsShowTheSameActorsByOnePass)
   }
 }
 
-// Bakes are kept while props are deleted.
-TEST(StabilityFault, ReceiverDeletedWhileBakesAreKept)
+TEST(StabilityFault, ReceiverDeletedWhileItIsADraft)
 {
   FloorScene scene;
   scene.Render();
-  scene.Pass->KeepBakesOn();
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::DRAFT);
+  scene.Sphere->SetRadius(0.4);
+  scene.Render();
+  scene.Sphere->SetRadius(0.5);
   scene.Renderer->RemoveActor(scene.FloorActor);
   scene.FloorActor = nullptr;
   const Messages messages;
@@ -621,7 +625,7 @@ TEST(StabilityFault, ReceiverDeletedWhileBakesAreKept)
   const PassScene::Pixels good = untouched.Render();
   untouched.FloorActor->VisibilityOff();
   ExpectSameFrame("without the receiver", without, untouched.Render());
-  scene.Pass->KeepBakesOff();
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::COMPLETE);
   scene.FloorActor = scene.Add(scene.Receiver);
   ExpectSameFrame("with a new one", scene.Render(), good);
   EXPECT_EQ(messages.GetText(), "");
