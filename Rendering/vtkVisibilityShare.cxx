@@ -177,7 +177,7 @@ std::size_t vtkVisibilityShare::GetBytes() const
   return this->Textures[0]->GetBytes() + this->Textures[1]->GetBytes();
 }
 
-void vtkVisibilityShare::ReleaseGraphicsResources()
+void vtkVisibilityShare::ReleaseSamples()
 {
   if (this->Window)
   {
@@ -186,6 +186,11 @@ void vtkVisibilityShare::ReleaseGraphicsResources()
     this->Cells->ReleaseGraphicsResources(this->Window);
     this->CellBuffer->ReleaseGraphicsResources();
   }
+}
+
+void vtkVisibilityShare::ReleaseGraphicsResources()
+{
+  this->ReleaseSamples();
   this->Textures[0]->ReleaseGraphicsResources();
   this->Textures[1]->ReleaseGraphicsResources();
   this->Program = nullptr;
