@@ -182,7 +182,7 @@ TEST(OccluderSelector, NamesTheSurfacesInTheirOrder)
   for (Surface& surface : surfaces)
   {
     const glm::dvec3 place(random.Between(0.0, 1.0), random.Between(0.0, 1.0), 0.5);
-    for (std::size_t i = 0; i < 1 + random.Below(3); ++i)
+    for (std::size_t count = 1 + random.Below(3); count > 0; --count)
     {
       AddTriangle(surface, { place, place + random.InBox(0.1), place + random.InBox(0.1) });
     }
