@@ -146,6 +146,25 @@ TEST(EffectPlanner, UnoccludedWhereAShadowFallsBesideTheReceiver)
   EXPECT_EQ(pair.Triangles, 0u);
 }
 
+// Walls stand on the receiver's border, or reach below it, or are higher than the lamp: they shade
+// nothing of it.
+TEST(EffectPlanner, UnoccludedInAnEmptyRoom)
+{
+  for (const double low : { 0.0, -0.1 })
+  {
+    for (const double height : { 2.0, 3.0, 100.0 })
+    {
+      const glm::dvec3 up(0.0, 0.0, height - low);
+      const PairPlan pair = MakeScene({ PlanScene::MakePlate({ -1, -1, low }, { 2, 0, 0 }, up),
+                                        PlanScene::MakePlate({ -1, 1, low }, { 2, 0, 0 }, up),
+                                        PlanScene::MakePlate({ -1, -1, low }, { 0, 2, 0 }, up),
+                                        PlanScene::MakePlate({ 1, -1, low }, { 0, 2, 0 }, up) })
+                              .PlanFirst();
+      Expect(pair, Effect::Unoccluded, "no occluder is between them");
+    }
+  }
+}
+
 // ---- Umbra ----
 
 TEST(EffectPlanner, UmbraUnderOnePlate)
