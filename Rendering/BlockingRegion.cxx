@@ -3,6 +3,7 @@
 #include "BlockingRegion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -138,10 +139,26 @@ double BlockingRegion::GetDepth(int plane, const glm::dvec3& p) const
 
 bool BlockingRegion::MayHold(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const
 {
+  // The part above the receiver: what goes below it may be in one of the planes there alone.
+  const std::array<glm::dvec3, 3> triangle{ a, b, c };
+  std::array<glm::dvec3, 4> above;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 &p = triangle[i], &q = triangle[(i + 1) % 3];
+    if (p.z >= 0.0)
+    {
+      above[count++] = p;
+    }
+    if ((p.z > 0.0 && q.z < 0.0) || (p.z < 0.0 && q.z > 0.0))
+    {
+      above[count++] = glm::mix(p, q, p.z / (p.z - q.z));
+    }
+  }
   for (int plane = 0; plane < Planes; ++plane)
   {
-    if (this->GetDepth(plane, a) < 0.0 && this->GetDepth(plane, b) < 0.0 &&
-      this->GetDepth(plane, c) < 0.0)
+    if (std::all_of(above.begin(), above.begin() + count,
+          [&](const glm::dvec3& p) { return this->GetDepth(plane, p) < 0.0; }))
     {
       return false;
     }

@@ -38,7 +38,8 @@ public:
   BlockingRegion(const ReceiverFrame& frame, const LightShape& seen,
     const glm::dvec4& uvRange = { 0.0, 0.0, 1.0, 1.0 });
 
-  /// Whether the triangle may have a point in the region: not if one plane has all three outside.
+  /// Whether the triangle may have a point in the region: not if one plane has all of its part
+  /// above the receiver outside.
   bool MayHold(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
 
   /**

@@ -209,7 +209,7 @@ Polygon FindCrossings(
       const double step =
         areDirections ? glm::dot(corner, plane.Normal) : plane.GetSide(corner) - atFrom;
       const double t = -atFrom / step;
-      if (!(t > 0.0) || !(areDirections || t < 1.0))
+      if (!(t > 0.0) || !(areDirections ? std::isfinite(t) : t < 1.0))
       {
         return {};
       }

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace penumbra
 {
@@ -34,7 +35,33 @@ double BoundSolidAngle(
 
 glm::dvec3 LightShape::GetIrradianceBound(const Parallelogram& receiver) const
 {
-  return this->Radiance * std::min(this->GetSolidAngleBound(receiver) / glm::pi<double>(), 1.0);
+  const LightHull hull = this->GetHull();
+  if (hull.Points.empty())
+  {
+    return glm::dvec3(0.0);
+  }
+  // The cosines on both ends are heights over the one's plane and the other's, over the distance.
+  const glm::dvec3 normal = glm::normalize(glm::cross(receiver.EdgeX, receiver.EdgeY));
+  glm::dvec3 low = hull.Points.front(), high = low;
+  double overReceiver = 0.0, overLight = 0.0;
+  for (const glm::dvec3& p : hull.Points)
+  {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+    overReceiver = std::max(overReceiver, std::abs(glm::dot(normal, p - receiver.Corner)));
+  }
+  for (const glm::dvec3& edges :
+    { glm::dvec3(0.0), receiver.EdgeX, receiver.EdgeY, receiver.EdgeX + receiver.EdgeY })
+  {
+    overLight = std::max(overLight,
+      std::abs(glm::dot(this->GetAxis(), receiver.Corner + edges - hull.Points.front())));
+  }
+  const double distance = BoundDistance(low, high, receiver);
+  const auto boundCosine = [&](double height)
+  { return height < distance ? height / distance : 1.0; };
+  const double most = this->GetMeasure() / (glm::pi<double>() * distance * distance) *
+    boundCosine(overReceiver) * boundCosine(overLight); // may be infinite
+  return this->Radiance * std::min(most, 1.0);
 }
 
 } // namespace penumbra

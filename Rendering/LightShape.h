@@ -127,7 +127,8 @@ public:
 
   /**
    * An upper bound of Irradiance(), in its three components, anywhere on the parallelogram. By
-   * default that of a diffuse surface: its form factor is at most its solid angle over pi.
+   * default that of a flat diffuse surface: its form factor is at most area / distance^2 over pi,
+   * times both cosines.
    */
   virtual glm::dvec3 GetIrradianceBound(const Parallelogram& receiver) const;
 

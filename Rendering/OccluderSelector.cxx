@@ -15,6 +15,10 @@ constexpr std::uint32_t NoPlace = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t PageSize = 1024;
 /// A point outside of a receiver is judged by a plane through points within it.
 constexpr double RoundingsOfPlane = 3.0;
+/// Rays start at texels' centres. The outermost are 1/2 of 1/16384 inside the receiver
+/// (ShadowScene::MaximumTextureSide), so what touches its border, but for rounding, blocks none of
+/// them: the walls of a room, which stand on its floor.
+constexpr double Inset = 1e-6;
 
 /// How far the points of a surface may be off, along each axis: the rounding of the coordinates in
 /// their own type, and that of the arithmetic in double. A frame takes differences and products of
@@ -124,7 +128,8 @@ std::uint32_t OccluderSelector::GetPlace(Part& part, const Surface& surface, std
 OccluderSelector::Search OccluderSelector::MakeSearch(
   const LightShape& seen, const glm::dvec4& range) const
 {
-  Search search{ BlockingRegion(this->Frame, seen, range), BlockingRegion(this->Frame, seen),
+  const glm::dvec4 inside = range + glm::dvec4(Inset, Inset, -Inset, -Inset);
+  Search search{ BlockingRegion(this->Frame, seen, inside), BlockingRegion(this->Frame, seen),
     ShadowProjector(this->Frame, seen), {}, {} };
   search.LightNormal = glm::abs(search.Region.GetLightNormal().value_or(glm::dvec3(0.0)));
   return search;

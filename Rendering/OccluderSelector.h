@@ -49,7 +49,7 @@ public:
 
   /**
    * Select the triangles that may block `seen`, the light's part in front of the receiver, from the
-   * part of the receiver in `range`: (u, v) from its low to its high corner.
+   * part of the receiver in `range`: (u, v) from its low to its high corner, some texels wide.
    */
   void Select(const LightShape& seen, const glm::dvec4& range = { 0.0, 0.0, 1.0, 1.0 });
 

@@ -83,6 +83,12 @@ ShadowProjector::ShadowProjector(const ReceiverFrame& frame, const LightShape& s
   {
     corners = GetBoxCorners(corners);
   }
+  const auto project = [&](const glm::dvec3& place)
+  {
+    return hull.AreDirections ? RegisteredProjection::FromDirection(place)
+                              : RegisteredProjection::FromPoint(place);
+  };
+  glm::dvec3 sum(0.0);
   for (const glm::dvec3& corner : corners)
   {
     if (!(corner.z > 0.0))
@@ -90,9 +96,10 @@ ShadowProjector::ShadowProjector(const ReceiverFrame& frame, const LightShape& s
       this->Projections.clear(); // the hull reaches the horizon, and shadows any place
       return;
     }
-    this->Projections.push_back(hull.AreDirections ? RegisteredProjection::FromDirection(corner)
-                                                   : RegisteredProjection::FromPoint(corner));
+    this->Projections.push_back(project(corner));
+    sum += corner;
   }
+  this->Centre = project(sum / static_cast<double>(corners.size()));
 }
 
 void ShadowProjector::Add(const glm::dvec3& point, ShadowBounds& bounds) const
@@ -111,12 +118,28 @@ void ShadowProjector::Add(const glm::dvec3& point, ShadowBounds& bounds) const
     own.Low = glm::min(own.Low, place);
     own.High = glm::max(own.High, place);
   }
-  // Below the receiver nothing casts a shadow; where an edge enters it, its shadow is itself.
-  if (!own.IsUnbounded && point.z > 0.0)
-  {
-    own.Penumbra = own.High - own.Low;
-  }
   bounds.Add(own);
+  if (!own.IsUnbounded)
+  {
+    this->AddPenumbra(point, bounds);
+  }
+}
+
+void ShadowProjector::AddPenumbra(const glm::dvec3& point, ShadowBounds& bounds) const
+{
+  const glm::dvec3& c = this->Centre.K;
+  for (const RegisteredProjection& projection : this->Projections)
+  {
+    const glm::dvec3& k = projection.K;
+    const glm::dvec2 slope = (glm::dvec2(point) * (k.z - c.z) + glm::dvec2(c) - glm::dvec2(k) +
+                               point.z * (glm::dvec2(k) * c.z - glm::dvec2(c) * k.z)) /
+      projection.Project(point).z;
+    bounds.LowSlope = glm::min(bounds.LowSlope, slope);
+    bounds.HighSlope = glm::max(bounds.HighSlope, slope);
+  }
+  // Below the receiver nothing casts a shadow; where an edge enters it, its shadow is itself.
+  bounds.Reach = std::max(bounds.Reach, point.z / this->Centre.Project(point).z);
+  bounds.Penumbra = glm::max(bounds.Penumbra, bounds.Reach * (bounds.HighSlope - bounds.LowSlope));
 }
 
 } // namespace penumbra

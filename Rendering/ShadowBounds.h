@@ -26,6 +26,9 @@ struct PENUMBRARENDERING_EXPORT ShadowBounds
   glm::dvec2 High{ -std::numeric_limits<double>::infinity() };
   /// In u and v, how wide a penumbra may be.
   glm::dvec2 Penumbra{ 0.0 };
+  /// What ShadowProjector has found of the points so far, to tell the penumbra by.
+  glm::dvec2 LowSlope{ 0.0 }, HighSlope{ 0.0 };
+  double Reach = 0.0;
   /// A point is as high as the light, or nearly: its shadow may fall anywhere.
   bool IsUnbounded = false;
 
@@ -41,9 +44,17 @@ struct PENUMBRARENDERING_EXPORT ShadowBounds
  * it.
  *
  * From all of a convex light, the projections of a point below it are the convex hull of those from
- * its corners. The shadows that an edge casts from two of its points are no farther apart than
- * those of the edge's ends, since distance is convex along it: so corners tell how wide a penumbra
- * is.
+ * its corners.
+ *
+ * How far these are apart is not convex along an edge, unless all of the light is equally high: an
+ * edge from right below an upright light to the receiver has no penumbra at its ends, but has one
+ * between them. With k of a corner and c of the light's centre (RegisteredProjection), a point's
+ * projections from the two differ by
+ *
+ *     h / (1 - c.z h) * (u (k.z - c.z) + c.x - k.x + h (k.x c.z - c.x k.z)) / (1 - k.z h)
+ *
+ * in u, and alike in v. The first factor, the reach, grows with h, and the second one, the slope,
+ * is linear over linear, so that neither is larger anywhere in a triangle than at its corners.
  */
 class PENUMBRARENDERING_EXPORT ShadowProjector
 {
@@ -55,7 +66,10 @@ public:
   void Add(const glm::dvec3& point, ShadowBounds& bounds) const;
 
 private:
+  void AddPenumbra(const glm::dvec3& point, ShadowBounds& bounds) const;
+
   std::vector<RegisteredProjection> Projections;
+  RegisteredProjection Centre;
 };
 
 } // namespace penumbra

@@ -92,6 +92,8 @@ void vtkStageTexture::FillAndCopy(const glm::vec4& values, vtkStageTexture* sour
   glCopyTexSubImage2D(
     GL_TEXTURE_2D, 0, to.x, to.y, rectangle.Low.x, rectangle.Low.y, size.x, size.y);
   this->Texture->Deactivate();
+  // The source may go next. OpenGL would unbind its framebuffer, and vtkOpenGLState not know of it.
+  this->Framebuffer->Bind(GL_FRAMEBUFFER);
 }
 
 unsigned int vtkStageTexture::GetHandle()

@@ -6,6 +6,7 @@
 
 #include "BenchmarkTools.h"
 #include "LiteralLoop.h"
+#include "PairedView.h"
 #include "ShadowScene.h"
 #include "Spheres.h"
 
@@ -24,12 +25,10 @@
 #include "vtkRenderer.h"
 #include "vtkShadowReceiver.h"
 #include "vtkSmartPointer.h"
-#include "vtkSoftShadowPass.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -148,15 +147,6 @@ BakeResult MeasureBake(const Plan& plan, int rings, vtkOpenGLRenderWindow* windo
   return result;
 }
 
-vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithm* algorithm)
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(algorithm->GetOutputPort());
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-
 vtkSmartPointer<vtkPolyData> MakePolyData(const penumbra::Surface& surface)
 {
   vtkNew<vtkPoints> points;
@@ -183,56 +173,7 @@ enum class Framing
   Close  ///< the floor fills most of the picture, and all else is cheap
 };
 
-/// The bake's scene twice, with the pass and without, by renderers that fill the same window in
-/// turn: a renderer whose pass came and went would build its shaders anew each time.
-class View
-{
-public:
-  View(const Plan& plan, vtkRenderWindow* window, Framing framing);
-  ~View();
-
-  /// Seconds of a frame, of all processors together: what else the machine does hardly adds to it.
-  double DrawFrame(bool shadows);
-  void MoveCamera() { this->Camera->Azimuth(1.0); }
-  int GetBakeCount() { return this->Pass->GetBakeCount(); }
-
-private:
-  void Fill(const Plan& plan, vtkRenderer* renderer);
-
-  vtkRenderWindow* Window;
-  vtkNew<vtkCamera> Camera;
-  vtkNew<vtkRenderer> Plain;
-  vtkNew<vtkRenderer> Shadowed;
-  vtkNew<vtkSoftShadowPass> Pass;
-};
-
-View::View(const Plan& plan, vtkRenderWindow* window, Framing framing)
-  : Window(window)
-{
-  this->Camera->SetFocalPoint(FloorEdge / 2, FloorEdge / 2, 0.0);
-  this->Camera->SetPosition(FloorEdge / 2, -0.6 * FloorEdge, 0.9 * FloorEdge);
-  this->Camera->SetViewUp(0.0, 0.0, 1.0);
-  for (vtkRenderer* renderer : { this->Plain.Get(), this->Shadowed.Get() })
-  {
-    this->Fill(plan, renderer);
-    renderer->SetActiveCamera(this->Camera);
-    this->Window->AddRenderer(renderer);
-    if (framing == Framing::Whole)
-    {
-      renderer->ResetCamera();
-    }
-    renderer->ResetCameraClippingRange();
-  }
-  this->Shadowed->SetPass(this->Pass);
-}
-
-View::~View()
-{
-  this->Window->RemoveRenderer(this->Plain);
-  this->Window->RemoveRenderer(this->Shadowed);
-}
-
-void View::Fill(const Plan& plan, vtkRenderer* renderer)
+void Fill(const Plan& plan, vtkRenderer* renderer)
 {
   vtkNew<vtkPlaneSource> plane;
   plane->SetOrigin(0.0, 0.0, 0.0);
@@ -257,47 +198,18 @@ void View::Fill(const Plan& plan, vtkRenderer* renderer)
   renderer->AddActor(spheres);
 }
 
-double View::DrawFrame(bool shadows)
-{
-  this->Plain->SetDraw(!shadows);
-  this->Shadowed->SetDraw(shadows);
-  const std::clock_t start = std::clock();
-  this->Window->Render();
-  this->Window->WaitForCompletion();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-/// What was found of the display.
-struct FrameResult
-{
-  double PlainSeconds = 0.0;  ///< median
-  double ShadowSeconds = 0.0; ///< median
-  double Ratio = 0.0;         ///< median of the ratios of neighbouring frames
-  int Bakes = 0;
-};
-
-/// Frames that compile shaders and bake, and do not count.
-constexpr int WarmUpFrames = 4;
-
 FrameResult MeasureFrames(const Plan& plan, vtkRenderWindow* window, Framing framing)
 {
-  View view(plan, window, framing);
-  std::vector<double> plain, shadows, ratios;
-  for (int frame = -WarmUpFrames; frame < plan.Frames; ++frame)
+  PairedView view(window, [&](vtkRenderer* renderer) { Fill(plan, renderer); });
+  vtkCamera* camera = view.GetCamera();
+  camera->SetFocalPoint(FloorEdge / 2, FloorEdge / 2, 0.0);
+  camera->SetPosition(FloorEdge / 2, -0.6 * FloorEdge, 0.9 * FloorEdge);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  if (framing == Framing::Whole)
   {
-    // Which one comes first changes.
-    const bool first = frame % 2 == 0;
-    const double a = view.DrawFrame(first);
-    const double b = view.DrawFrame(!first);
-    if (frame >= 0)
-    {
-      shadows.push_back(first ? a : b);
-      plain.push_back(first ? b : a);
-      ratios.push_back(shadows.back() / plain.back());
-    }
-    view.MoveCamera();
+    view.ShowAll();
   }
-  return { GetMedian(plain), GetMedian(shadows), GetMedian(ratios), view.GetBakeCount() };
+  return view.Measure(plan.Frames);
 }
 
 /// What issue 2 asks for.

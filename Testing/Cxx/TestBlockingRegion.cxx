@@ -6,12 +6,9 @@
 
 #include "BlockingRegion.h"
 #include "ClusterTree.h"
-#include "DirectionalLight.h"
-#include "DiskLight.h"
 #include "PointLight.h"
 #include "PolygonLight.h"
-#include "RandomGeometry.h"
-#include "SegmentLight.h"
+#include "RandomPairs.h"
 
 #include <gtest/gtest.h>
 
@@ -27,95 +24,11 @@ using penumbra::Box;
 using penumbra::ClusterTree;
 using penumbra::ConvexRegion;
 using penumbra::Light;
-using penumbra::LightSample;
 using penumbra::Parallelogram;
 using penumbra::ReceiverFrame;
 using Side = ReceiverFrame::Side;
 
 constexpr int Regions = 2000;
-
-const glm::dvec4 Whole(0.0, 0.0, 1.0, 1.0);
-
-// A receiver of any attitude and size, up to 1e6 times as long as wide; it is around the origin or
-// up to 1e4 of its sizes away.
-ReceiverFrame RandomFrame(RandomGeometry& random)
-{
-  const double size = std::pow(10.0, random.Between(-3.0, 3.0));
-  const double aspect = std::pow(10.0, random.Between(-1.0, 6.0));
-  const glm::dvec3 x = random.Direction();
-  const glm::dvec3 y =
-    glm::normalize(glm::cross(x, random.Direction())) + random.Between(-1.0, 1.0) * x;
-  Parallelogram base{ {}, size * x, size * aspect * y };
-  const glm::dvec3 away = std::pow(10.0, random.Between(-1.0, 4.0)) * random.InBox(size);
-  base.Corner = random.Below(2) == 0 ? away : -0.5 * (base.EdgeX + base.EdgeY);
-  return { base, random.Below(2) == 0 ? Side::Front : Side::Back };
-}
-
-// Given in the receiver's frame, some of it perhaps below the receiver.
-Light RandomLight(RandomGeometry& random, const ReceiverFrame& frame)
-{
-  const auto place = [&]() { return frame.ToWorld(random.InBox(2.0) + glm::dvec3(0.5, 0.5, 1.5)); };
-  const glm::dvec3 a = place(), b = place(), c = place();
-  switch (random.Below(6))
-  {
-    case 0:
-      return penumbra::PolygonLight::Triangle(a, b, c);
-    case 1:
-      return penumbra::PolygonLight::Parallelogram(a, b, c);
-    case 2:
-      return penumbra::DiskLight(a, random.Direction(), random.Between(0.1, 1.0) * frame.GetSize());
-    case 3:
-      return penumbra::SegmentLight(a, b);
-    case 4:
-      return penumbra::PointLight(a);
-    default:
-      return penumbra::DirectionalLight(
-        random.Direction(), random.Below(2) == 0 ? 0.0 : random.Between(0.5, 60.0));
-  }
-}
-
-glm::dvec4 RandomRange(RandomGeometry& random)
-{
-  const double u0 = random.Between(0.0, 1.0), v0 = random.Between(0.0, 1.0);
-  return { u0, v0, random.Between(u0, 1.0), random.Between(v0, 1.0) };
-}
-
-// A light that sends something to the receiver, and the part of that which gets it.
-struct Pair
-{
-  ReceiverFrame Frame;
-  Light Seen;
-  glm::dvec4 Range;
-};
-
-Pair RandomPair(RandomGeometry& random)
-{
-  while (true)
-  {
-    const ReceiverFrame frame = RandomFrame(random);
-    const Light light = RandomLight(random, frame);
-    Light seen(light->Clip(frame.GetBase().Corner, frame.GetNormal()));
-    if (seen->IsValid())
-    {
-      return { frame, seen, random.Below(3) == 0 ? Whole : RandomRange(random) };
-    }
-  }
-}
-
-// A point in the frame, on the way from the range to a point of the light.
-glm::dvec3 RandomPointOnRay(RandomGeometry& random, const Pair& pair)
-{
-  const glm::dvec2 pattern(random.Between(0.0, 1.0), random.Between(0.0, 1.0));
-  const LightSample sample = pair.Seen->TakeSamples({ pattern }).front();
-  const glm::dvec4& r = pair.Range;
-  const glm::dvec3 start(random.Between(r.x, r.z), random.Between(r.y, r.w), 0.0);
-  if (sample.IsDirection)
-  {
-    return start +
-      random.Between(0.0, 10.0) * pair.Frame.DirectionToFrame(sample.Place) * pair.Frame.GetSize();
-  }
-  return glm::mix(start, pair.Frame.ToFrame(sample.Place), random.Between(0.0, 0.999));
-}
 
 bool Holds(const BlockingRegion& region, const glm::dvec3& p)
 {
@@ -137,7 +50,7 @@ TEST(BlockingRegion, HoldsEveryRay)
   for (unsigned seed = 0; seed < Regions; ++seed)
   {
     RandomGeometry random(seed);
-    const Pair pair = RandomPair(random);
+    const RandomPair pair(random);
     const BlockingRegion region(pair.Frame, *pair.Seen, pair.Range);
     const ConvexRegion planes = region.GetWorldPlanes();
     for (int i = 0; i < 50; ++i)
@@ -159,7 +72,7 @@ TEST(BlockingRegion, HasTheSamePlanesInTheWorld)
   for (unsigned seed = 0; seed < Regions; ++seed)
   {
     RandomGeometry random(seed);
-    const Pair pair = RandomPair(random);
+    const RandomPair pair(random);
     const BlockingRegion region(pair.Frame, *pair.Seen, pair.Range);
     const ConvexRegion planes = region.GetWorldPlanes();
     for (int i = 0; i < 50; ++i)
@@ -198,7 +111,7 @@ TEST(BlockingRegion, HoldsInTheWorldWhateverItMayHold)
   for (unsigned seed = 0; seed < Regions; ++seed)
   {
     RandomGeometry random(seed);
-    const Pair pair = RandomPair(random);
+    const RandomPair pair(random);
     const BlockingRegion region(pair.Frame, *pair.Seen, pair.Range);
     const ConvexRegion planes = region.GetWorldPlanes();
     for (int i = 0; i < 10; ++i)
@@ -231,7 +144,7 @@ TEST(BlockingRegion, IsTight)
     }
     const Light light = penumbra::PolygonLight::Triangle(
       frame.ToWorld(corners[0]), frame.ToWorld(corners[1]), frame.ToWorld(corners[2]));
-    const glm::dvec4 range = RandomRange(random);
+    const glm::dvec4 range = RandomPair(random).Range;
     const BlockingRegion region(frame, *light, range);
     for (int side = 0; side < 4; ++side)
     {
