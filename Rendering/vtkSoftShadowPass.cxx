@@ -703,11 +703,7 @@ void vtkSoftShadowPass::ReleaseGraphicsResources(vtkWindow* window)
   }
   if (window == this->Impl->Window)
   {
-    for (ShownProp& shown : this->Impl->Shown)
-    {
-      shown.Baked->ReleaseGraphicsResources();
-    }
-    this->Impl->Shown.clear();
+    this->Impl->Shown.clear(); // textures free themselves in their own context
     this->Impl->Window = nullptr; // the next frame bakes anew
   }
   this->Superclass::ReleaseGraphicsResources(window);

@@ -23,9 +23,12 @@ void main()
   vec2 p = vertexUVH.xy - to.xy * vertexUVH.z;
   // Rasterisers put vertices on a grid of 1/256 of a texel. They are put there already, so that nothing that
   // a viewport adds rounds them to another place of that grid: a texel's bits are the same in any rectangle.
-  if (w > 1.0 / 1024.0)
+  // What is far away stays as it is: divisions would round it by more than a receiver near by can bear.
+  vec2 place = p / max(w, 1.0 / 1024.0);
+  vec2 texel = place * receiverTexels;
+  if (w > 1.0 / 1024.0 && max(abs(place.x), abs(place.y)) < 16.0 && max(abs(texel.x), abs(texel.y)) < 16384.0)
   {
-    p = floor(p / w * receiverTexels * 256.0 + 0.5) / (256.0 * receiverTexels) * w;
+    p = floor(texel * 256.0 + 0.5) / (256.0 * receiverTexels) * w;
   }
   gl_Position = vec4(2.0 * p - w, 0.0, w); // [0, 1] w' is [-w, w]
   gl_ClipDistance[0] = vertexUVH.z;

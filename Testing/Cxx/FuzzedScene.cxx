@@ -421,7 +421,14 @@ FuzzedScene Maker::MakeScene()
 
 FuzzedScene MakeFuzzedScene(unsigned seed, FuzzedKind kind)
 {
-  return Maker(seed, kind).MakeScene();
+  FuzzedScene scene = Maker(seed, kind).MakeScene();
+  // Far from the origin, rounding may leave a light no area.
+  std::vector<FuzzedLight>& lights = scene.Lights;
+  lights.erase(std::remove_if(lights.begin(), lights.end(),
+                 [](const FuzzedLight& light)
+                 { return !light.Settings.FindProblem().empty() || !light.Make()->IsValid(); }),
+    lights.end());
+  return scene;
 }
 
 FuzzedTriangle MakeFuzzedTriangle(const FuzzedScene& scene, unsigned seed, FuzzedKind kind)

@@ -30,10 +30,11 @@ struct CountedLight
 
 } // namespace
 
-/// OpenGL has at least 4 bits below a texel, Mesa's software renderer 8. Vertices, and those that
-/// clipping makes, are snapped to them by up to half a step in x and y: the edges between them move
-/// by less than two steps. Occluders that reach further than 64 receivers are clipped in double to
-/// what lies between receiver and light: the light's distance in units of the receiver's edges.
+/// OpenGL has at least 4 bits below a texel, Mesa's software renderer 8. Vertices are put on that
+/// grid by the shader, and those that clipping then makes by the rasteriser, each time by up to
+/// half a step in x and y: the edges between them move by less than two steps twice. Occluders that
+/// reach further than 64 receivers are clipped in double to what lies between receiver and light:
+/// the light's distance in units of the receiver's edges.
 oracle::RayTolerance GetRayTolerance(
   const penumbra::Parallelogram& base, const penumbra::Light& light)
 {
@@ -43,7 +44,7 @@ oracle::RayTolerance GetRayTolerance(
   {
     distance = std::max(distance, glm::length(p - base.Corner));
   }
-  return { 2.0L / 256, 0x1p-24L, std::max(64.0, distance * glm::length(base.EdgeY) / area),
+  return { 4.0L / 256, 0x1p-24L, std::max(64.0, distance * glm::length(base.EdgeY) / area),
     std::max(64.0, distance * glm::length(base.EdgeX) / area) };
 }
 

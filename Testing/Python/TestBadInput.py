@@ -114,8 +114,7 @@ def check_tiny_texels():
     check_message("tiny texels", messages, "TexelSize", "1e-09", "16384", "256 MiB")
     found = find_pass(shown.view).GetTextureBytes()
     checks.at_most(found, MAXIMUM_TEXTURE_BYTES, "tiny texels: bytes of the textures")
-    # The bake counts 22 bytes a texel of which 16 x 4/3 stay: 97 %.
-    checks.at_least(found, 0.96 * MAXIMUM_TEXTURE_BYTES, "tiny texels: bytes of the textures")
+    checks.equal(found, 0, "tiny texels: bytes of the textures where there is no shadow to show")
 
 
 def check_properties():

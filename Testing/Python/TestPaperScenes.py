@@ -22,6 +22,8 @@ checks = Checks()
 def check_scene(name, receivers, samples, polygons=None, texels=None):
     """samples: of all lights, on those receivers of each proxy that light reaches. None: the paper does not tell."""
     scene = scenes.build(name)
+    for receiver in scene.receivers.values():
+        receiver.Planner = 0  # the paper's samples, whether they are needed or not
     blocks = scenes.bake(scene)
     grids = [grid for group in blocks.values() for grid in group]
     view = scenes.show(scene)
