@@ -95,6 +95,7 @@ void OccluderSelector::Clear()
   this->NotedBy.clear();
   this->Selected.clear();
   this->Casters.clear();
+  this->Highest = 0.0;
 }
 
 OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
@@ -151,6 +152,7 @@ void OccluderSelector::Run(const Search& search)
 {
   this->Selected.clear();
   this->Casters.clear();
+  this->Highest = 0.0;
   ++this->Selections;
   this->Surfaces.Visit(search.Planes,
     [&](const ClusterTree::Items& surfaces)
@@ -211,7 +213,13 @@ void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& searc
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];
-  if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
+  const bool isFar =
+    BlockingRegion::IsFar(a) || BlockingRegion::IsFar(b) || BlockingRegion::IsFar(c);
+  if (!isFar && search.Region.MayHold(a, b, c)) // what SelectAll() adds to these changes nothing
+  {
+    this->Highest = std::max({ this->Highest, a.z, b.z, c.z });
+  }
+  if (!isFar)
   {
     this->Selected.push_back(triangle);
     ++caster.Triangles;
@@ -227,6 +235,7 @@ void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& searc
   for (std::uint32_t i = 0; i < polygon.size(); ++i)
   {
     this->NotePoint(first + i, search, caster);
+    this->Highest = std::max(this->Highest, polygon[i].z);
     if (i > 0 && i + 1 < polygon.size())
     {
       this->Selected.push_back({ first, first + i, first + i + 1 });

@@ -62,6 +62,9 @@ public:
   /// The surfaces that these are of.
   const std::vector<Caster>& GetCasters() const { return this->Casters; }
 
+  /// The height of the highest point of a triangle.
+  double GetHighest() const { return this->Highest; }
+
   /// Forget the receiver.
   void Clear();
 
@@ -114,6 +117,7 @@ private:
   std::uint32_t Selections = 0;
   std::vector<Triangle> Selected;
   std::vector<Caster> Casters;
+  double Highest = 0.0;
 };
 
 } // namespace penumbra

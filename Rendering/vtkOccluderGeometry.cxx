@@ -27,6 +27,7 @@ bool vtkOccluderGeometry::Upload(const penumbra::OccluderSelector& occluders)
 {
   const auto& triangles = occluders.GetTriangles();
   this->IndexCount = 3 * triangles.size();
+  this->Highest = occluders.GetHighest();
   if (this->IndexCount == 0)
   {
     return true;

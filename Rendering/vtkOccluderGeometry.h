@@ -32,6 +32,11 @@ public:
   bool Upload(const penumbra::OccluderSelector& occluders);
 
   /**
+   * The height of their highest point.
+   */
+  double GetHighest() const { return this->Highest; }
+
+  /**
    * Draw all triangles `instances` times with the current program, whose attribute vertexUVH gets
    * (u, v, h).
    */
@@ -53,6 +58,7 @@ private:
   vtkNew<vtkOpenGLBufferObject> Vertices;
   vtkNew<vtkOpenGLBufferObject> Indices;
   std::size_t IndexCount = 0;
+  double Highest = 0.0;
 };
 
 #endif

@@ -703,7 +703,7 @@ void vtkSoftShadowPass::ReleaseGraphicsResources(vtkWindow* window)
   }
   if (window == this->Impl->Window)
   {
-    this->Impl->Shown.clear(); // textures free themselves in their own context
+    this->Impl->Shown.clear();    // textures free themselves in their own context
     this->Impl->Window = nullptr; // the next frame bakes anew
   }
   this->Superclass::ReleaseGraphicsResources(window);

@@ -44,7 +44,7 @@ public:
 
 /// Sends up to 32 projections; the answer is how many.
 int SetProjections(vtkShaderProgram* program,
-  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first)
+  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first, double highest)
 {
   std::array<float, 4 * vtkVisibilityMask::SamplesPerLayer> k{};
   const std::size_t count =
@@ -52,8 +52,11 @@ int SetProjections(vtkShaderProgram* program,
   for (std::size_t i = 0; i < count; ++i)
   {
     const glm::dvec3& exact = projections[first + i].K;
-    const glm::vec3 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
-    std::copy_n(&v.x, 3, k.data() + 4 * i);
+    // Are all points below the sample? An edge that goes past it bears no moving of its ends.
+    constexpr double SmallestW = 1.0 / 1024.0;
+    const bool isAbove = 1.0 - exact.z * highest > SmallestW;
+    const glm::vec4 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0, isAbove ? 1.0f : 0.0f);
+    std::copy_n(&v.x, 4, k.data() + 4 * i);
   }
   program->SetUniform4fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
   return static_cast<int>(count);
@@ -131,7 +134,7 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
       static_cast<GLint>(first / SamplesPerLayer));
     const GLuint unblocked[4] = { 0, 0, 0, 0 };
     glClearBufferuiv(GL_COLOR, 0, unblocked);
-    occluders->Draw(program, SetProjections(program, projections, first));
+    occluders->Draw(program, SetProjections(program, projections, first, occluders->GetHighest()));
   }
   return true;
 }
