@@ -39,6 +39,8 @@ STEP = 0.5  # units of the scene, by which an occluder moves in a frame
 def measure(name, runs, frames):
     """What there is to tell of a scene: counts from the data, and medians of times."""
     scene = scenes.build(name)
+    for receiver in scene.receivers.values():
+        receiver.Planner = 0  # the paper's samples, whether they are needed or not
     baker = scenes.make_baker(scene)
     scenes.bake(scene, baker)  # compiles shaders
     totals = []
