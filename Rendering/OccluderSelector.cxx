@@ -40,6 +40,19 @@ glm::dvec3 GetUncertainty(const SharedSurface& surface, const Parallelogram& rec
     Roundings * std::numeric_limits<double>::epsilon() * skew * glm::length(largest);
 }
 
+/// The height above the receiver's plane that no point of a box is above.
+double GetTop(const Box& box, const ReceiverFrame& frame)
+{
+  double top = -std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 p((corner & 1) != 0 ? box.High.x : box.Low.x,
+      (corner & 2) != 0 ? box.High.y : box.Low.y, (corner & 4) != 0 ? box.High.z : box.Low.z);
+    top = std::max(top, frame.ToFrame(p).z);
+  }
+  return top;
+}
+
 /// Whether the triangle is as thin as the rounding of its points: its area is nothing else.
 bool IsDegenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
@@ -92,10 +105,10 @@ void OccluderSelector::Clear()
 {
   this->Parts.clear();
   this->Points.clear();
+  this->Tops.clear();
   this->NotedBy.clear();
   this->Selected.clear();
   this->Casters.clear();
-  this->Highest = 0.0;
 }
 
 OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
@@ -111,8 +124,16 @@ OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
     part.Contact = glm::dot(glm::abs(this->Frame.GetNormal()),
                      part.Uncertainty + RoundingsOfPlane * ownRounding) /
       this->Frame.GetSize();
+    part.Top = GetTop(shared.GetClusters().GetBounds(), this->Frame) + part.Contact;
   }
   return part;
+}
+
+std::uint32_t OccluderSelector::AddPoint(const glm::dvec3& point, const Part& part)
+{
+  this->Points.push_back(point);
+  this->Tops.push_back(part.Top);
+  return static_cast<std::uint32_t>(this->Points.size() - 1);
 }
 
 std::uint32_t OccluderSelector::GetPlace(Part& part, const Surface& surface, std::uint32_t point)
@@ -120,8 +141,7 @@ std::uint32_t OccluderSelector::GetPlace(Part& part, const Surface& surface, std
   std::uint32_t& place = part.Places[point];
   if (place == NoPlace)
   {
-    place = static_cast<std::uint32_t>(this->Points.size());
-    this->Points.push_back(this->Frame.ToFrame(surface.Points[point]));
+    place = this->AddPoint(this->Frame.ToFrame(surface.Points[point]), part);
   }
   return place;
 }
@@ -152,7 +172,6 @@ void OccluderSelector::Run(const Search& search)
 {
   this->Selected.clear();
   this->Casters.clear();
-  this->Highest = 0.0;
   ++this->Selections;
   this->Surfaces.Visit(search.Planes,
     [&](const ClusterTree::Items& surfaces)
@@ -189,7 +208,7 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
           this->GetPlace(part, surface, b), this->GetPlace(part, surface, c) };
         if (this->MayBlock(placed, part, search))
         {
-          this->AddTriangle(placed, search, caster);
+          this->AddTriangle(placed, part, search, caster);
         }
       }
     });
@@ -209,17 +228,12 @@ bool OccluderSelector::MayBlock(
     !search.Region.LiesInLight(a, b, c, glm::dot(search.LightNormal, part.Uncertainty));
 }
 
-void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& search, Caster& caster)
+void OccluderSelector::AddTriangle(
+  const Triangle& triangle, const Part& part, const Search& search, Caster& caster)
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];
-  const bool isFar =
-    BlockingRegion::IsFar(a) || BlockingRegion::IsFar(b) || BlockingRegion::IsFar(c);
-  if (!isFar && search.Region.MayHold(a, b, c)) // what SelectAll() adds to these changes nothing
-  {
-    this->Highest = std::max({ this->Highest, a.z, b.z, c.z });
-  }
-  if (!isFar)
+  if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
   {
     this->Selected.push_back(triangle);
     ++caster.Triangles;
@@ -231,11 +245,9 @@ void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& searc
   }
   const std::vector<glm::dvec3> polygon = search.Whole.Clip(a, b, c);
   const auto first = static_cast<std::uint32_t>(this->Points.size());
-  this->Points.insert(this->Points.end(), polygon.begin(), polygon.end());
   for (std::uint32_t i = 0; i < polygon.size(); ++i)
   {
-    this->NotePoint(first + i, search, caster);
-    this->Highest = std::max(this->Highest, polygon[i].z);
+    this->NotePoint(this->AddPoint(polygon[i], part), search, caster);
     if (i > 0 && i + 1 < polygon.size())
     {
       this->Selected.push_back({ first, first + i, first + i + 1 });

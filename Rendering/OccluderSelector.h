@@ -62,8 +62,8 @@ public:
   /// The surfaces that these are of.
   const std::vector<Caster>& GetCasters() const { return this->Casters; }
 
-  /// The height of the highest point of a triangle.
-  double GetHighest() const { return this->Highest; }
+  /// Of each point, a height that all of its surface is below.
+  const std::vector<double>& GetTops() const { return this->Tops; }
 
   /// Forget the receiver.
   void Clear();
@@ -87,6 +87,7 @@ private:
     PlaceTable Places;
     glm::dvec3 Uncertainty{ 0.0 }; ///< of its points, in the world, along each axis
     double Contact = 0.0;          ///< the height up to which a point may lie in the receiver
+    double Top = 0.0;              ///< a height that no point is above
   };
   /// What Select() goes by.
   struct Search
@@ -101,10 +102,12 @@ private:
   Search MakeSearch(const LightShape& seen, const glm::dvec4& range) const;
   void Run(const Search& search);
   Part& GetPart(std::size_t surface);
+  std::uint32_t AddPoint(const glm::dvec3& point, const Part& part);
   std::uint32_t GetPlace(Part& part, const Surface& surface, std::uint32_t point);
   void SelectFrom(std::size_t surface, const Search& search);
   bool MayBlock(const Triangle& triangle, const Part& part, const Search& search) const;
-  void AddTriangle(const Triangle& triangle, const Search& search, Caster& caster);
+  void AddTriangle(
+    const Triangle& triangle, const Part& part, const Search& search, Caster& caster);
   void NotePoint(std::uint32_t place, const Search& search, Caster& caster);
 
   const ShadowScene* Scene = nullptr;
@@ -113,11 +116,11 @@ private:
   ReceiverFrame Frame;
   std::unordered_map<std::size_t, Part> Parts; ///< of the surfaces that were looked at
   std::vector<glm::dvec3> Points;              ///< of the surfaces, and those that cutting made
+  std::vector<double> Tops;                    ///< of each point
   std::vector<std::uint32_t> NotedBy; ///< of each point, the last selection that noted its shadow
   std::uint32_t Selections = 0;
   std::vector<Triangle> Selected;
   std::vector<Caster> Casters;
-  double Highest = 0.0;
 };
 
 } // namespace penumbra

@@ -27,15 +27,14 @@ bool vtkOccluderGeometry::Upload(const penumbra::OccluderSelector& occluders)
 {
   const auto& triangles = occluders.GetTriangles();
   this->IndexCount = 3 * triangles.size();
-  this->Highest = occluders.GetHighest();
   if (this->IndexCount == 0)
   {
     return true;
   }
   const std::vector<glm::dvec3>& points = occluders.GetPoints();
-  std::vector<glm::vec3> vertices(points.size());
-  std::transform(points.begin(), points.end(), vertices.begin(),
-    [](const glm::dvec3& p) { return glm::vec3(p); });
+  std::vector<glm::vec4> vertices(points.size());
+  std::transform(points.begin(), points.end(), occluders.GetTops().begin(), vertices.begin(),
+    [](const glm::dvec3& p, double top) { return glm::vec4(p, top); });
   penumbra::ForgetOpenGLErrors();
   if (!this->Vertices->Upload(
         vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
@@ -60,7 +59,7 @@ void vtkOccluderGeometry::Draw(vtkShaderProgram* program, int instances)
   vtkNew<vtkOpenGLVertexArrayObject> arrays;
   arrays->Bind();
   arrays->AddAttributeArray(
-    program, this->Vertices, "vertexUVH", 0, sizeof(glm::vec3), VTK_FLOAT, 3, false);
+    program, this->Vertices, "vertexUVHT", 0, sizeof(glm::vec4), VTK_FLOAT, 4, false);
   this->Indices->Bind();
   glDrawElementsInstanced(
     GL_TRIANGLES, static_cast<GLsizei>(this->IndexCount), GL_UNSIGNED_INT, nullptr, instances);

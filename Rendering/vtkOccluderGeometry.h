@@ -32,13 +32,8 @@ public:
   bool Upload(const penumbra::OccluderSelector& occluders);
 
   /**
-   * The height of their highest point.
-   */
-  double GetHighest() const { return this->Highest; }
-
-  /**
-   * Draw all triangles `instances` times with the current program, whose attribute vertexUVH gets
-   * (u, v, h).
+   * Draw all triangles `instances` times with the current program, whose attribute vertexUVHT gets
+   * (u, v, h) and a height that all of the vertex's surface is below.
    */
   void Draw(vtkShaderProgram* program, int instances);
 
@@ -58,7 +53,6 @@ private:
   vtkNew<vtkOpenGLBufferObject> Vertices;
   vtkNew<vtkOpenGLBufferObject> Indices;
   std::size_t IndexCount = 0;
-  double Highest = 0.0;
 };
 
 #endif

@@ -44,21 +44,18 @@ public:
 
 /// Sends up to 32 projections; the answer is how many.
 int SetProjections(vtkShaderProgram* program,
-  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first, double highest)
+  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first)
 {
-  std::array<float, 4 * vtkVisibilityMask::SamplesPerLayer> k{};
+  std::array<float, 3 * vtkVisibilityMask::SamplesPerLayer> k{};
   const std::size_t count =
     std::min<std::size_t>(projections.size() - first, vtkVisibilityMask::SamplesPerLayer);
   for (std::size_t i = 0; i < count; ++i)
   {
     const glm::dvec3& exact = projections[first + i].K;
-    // Are all points below the sample? An edge that goes past it bears no moving of its ends.
-    constexpr double SmallestW = 1.0 / 1024.0;
-    const bool isAbove = 1.0 - exact.z * highest > SmallestW;
-    const glm::vec4 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0, isAbove ? 1.0f : 0.0f);
-    std::copy_n(&v.x, 4, k.data() + 4 * i);
+    const glm::vec3 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
+    std::copy_n(&v.x, 3, k.data() + 3 * i);
   }
-  program->SetUniform4fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
+  program->SetUniform3fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
   return static_cast<int>(count);
 }
 
@@ -134,7 +131,7 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
       static_cast<GLint>(first / SamplesPerLayer));
     const GLuint unblocked[4] = { 0, 0, 0, 0 };
     glClearBufferuiv(GL_COLOR, 0, unblocked);
-    occluders->Draw(program, SetProjections(program, projections, first, occluders->GetHighest()));
+    occluders->Draw(program, SetProjections(program, projections, first));
   }
   return true;
 }

@@ -85,15 +85,17 @@ def draw_frame(view, angle):
 
 
 def measure(plan, plain, shadowed):
-    """The median ratios of neighbouring frames, and the median times of each kind."""
+    """The median ratios of neighbouring frames, the median times of each kind, and how often the pass baked."""
     times = []
     for frame in range(-WARM_UP_FRAMES, plan.frames):
         angle = 8 * math.sin(0.3 * frame)
         order = (plain, shadowed) if frame % 2 else (shadowed, plain)
         pair = [draw_frame(view, angle) for view in order]
+        if frame < 0:
+            bakes = find_pass(shadowed).GetBakeCount()
         if frame >= 0:
             times.append(pair if frame % 2 else pair[::-1])
-    result = {}
+    result = {"bakes": find_pass(shadowed).GetBakeCount() - bakes}
     for i, clock in enumerate(("cpu", "wall")):
         result[clock + "Ratio"] = statistics.median(b[i] / a[i] for a, b in times)
         result[clock + "PlainSeconds"] = statistics.median(a[i] for a, _ in times)
@@ -114,7 +116,6 @@ def measure_scene(plan, name, samples):
             simple.GetDisplayProperties(receiver, views[1]).ShadowShading = shading
         result = {"scene": name, "samples": samples, "shading": shading, "judged": judged}
         result.update(measure(plan, *views))
-        result["bakes"] = find_pass(views[1]).GetBakeCount()
         print_row(result)
         results.append(result)
     simple.ResetSession()
@@ -129,7 +130,7 @@ def print_row(result):
 
 def judge(plan, results):
     """Prints a line for each requirement that does not hold; answers whether all do."""
-    failed = [f"moving the camera must not bake: {r}" for r in results if r["bakes"] != 1]
+    failed = [f"moving the camera must not bake: {r}" for r in results if r["bakes"] != 0]
     if plan is FULL:
         failed += [f"{r['scene']}, n = {r['samples']}, {r['shading']}: the ratio of CPU times is {r['cpuRatio']:.3f}, "
                    f"allowed: {LARGEST_RATIO}" for r in results if r["judged"] and r["cpuRatio"] > LARGEST_RATIO]

@@ -402,7 +402,7 @@ TEST(StabilityFault, ViewIsPlainWithoutAShader)
 {
   const auto supersample = [](FloorScene& s) { s.Receiver->SetSupersampling(2); };
   for (const ViewFault& fault :
-    std::vector<ViewFault>{ { "shader of masks", RefuseShader("uniform vec4 registration"), {} },
+    std::vector<ViewFault>{ { "shader of masks", RefuseShader("uniform vec3 registration"), {} },
       { "shader of the closed form", RefuseShader("lightVertexCount"), {} },
       { "shader of shares", RefuseShader("usampler2DArray masks"), {} },
       { "shader that resolves", RefuseShader("uniform int hasShares"), {} },

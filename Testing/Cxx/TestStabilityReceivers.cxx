@@ -88,7 +88,9 @@ void ExpectExactData(const TestScene& scene, const std::vector<vtkPolyData*>& re
 {
   const CountError error = CompareData(scene, receivers, matrix);
   ExpectWithin(scene.Name, error.Largest, GetRadianceBound(scene.Settings.LightSamples));
-  EXPECT_LE(error.Open, 0.06) << scene.Name;
+  // Slivers lie along texels: more of their rays pass an edge by less than the tolerance.
+  constexpr double MostOpen = 0.125;
+  EXPECT_LE(error.Open, MostOpen) << scene.Name;
 }
 
 TestScene MakeBoxScene()
