@@ -3,6 +3,7 @@
 #include "vtkShadowReceiver.h"
 
 #include "ShadowSettings.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -45,14 +46,19 @@ int vtkShadowReceiver::RequestData(
   settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
   settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
   settings.ProxyNormal = glm::make_vec3(this->ProxyNormal);
+  penumbra::CasterSettings caster;
+  caster.CastShadow = this->CastShadow;
+  vtkFieldData* fieldData = output->GetFieldData();
+  vtkShadowFieldData::Write(
+    vtkShadowFieldData::ReadCaster(fieldData).Overridden(caster), fieldData);
   const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
-    vtkShadowFieldData::WriteRefusal(problem, output->GetFieldData());
+    vtkShadowFieldData::WriteRefusal(problem, fieldData);
     return 1; // the input goes on, to be drawn plain
   }
-  vtkShadowFieldData::Write(settings, output->GetFieldData());
+  vtkShadowFieldData::Write(settings, fieldData);
   return 1;
 }
 
@@ -81,4 +87,5 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ProxyPlaneMode: " << this->ProxyPlaneMode << "\n";
   print("ProxyOrigin", this->ProxyOrigin);
   print("ProxyNormal", this->ProxyNormal);
+  os << indent << "CastShadow: " << this->CastShadow << "\n";
 }

@@ -3,6 +3,7 @@
 #include "OccluderSelector.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace penumbra
@@ -71,6 +72,7 @@ void OccluderSelector::Clear()
   this->Points.clear();
   this->NotedBy.clear();
   this->Selected.clear();
+  this->Translucent.clear();
   this->Casters.clear();
 }
 
@@ -126,6 +128,7 @@ void OccluderSelector::SelectAll(const LightShape& seen)
 void OccluderSelector::Run(const Search& search)
 {
   this->Selected.clear();
+  this->Translucent.clear();
   this->Casters.clear();
   ++this->Selections;
   this->Surfaces.Visit(search.Planes,
@@ -141,13 +144,28 @@ void OccluderSelector::Run(const Search& search)
     [](const Caster& a, const Caster& b) { return a.Surface < b.Surface; });
 }
 
+std::vector<Caster> OccluderSelector::GetTranslucentCasters() const
+{
+  std::vector<Caster> casters;
+  std::copy_if(this->Casters.begin(), this->Casters.end(), std::back_inserter(casters),
+    [this](const Caster& caster)
+    { return this->Scene->Surfaces[caster.Surface]->IsTranslucent(); });
+  return casters;
+}
+
 void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
 {
   const SharedSurface& shared = this->Scene->Surfaces[index];
   const Surface& surface = *shared;
   const bool isReceivers = index == this->Base->Surface;
+  if (!surface.CastsShadow())
+  {
+    return;
+  }
+  std::vector<Triangle>& selected = surface.IsTranslucent() ? this->Translucent : this->Selected;
   Caster caster;
   caster.Surface = index;
+  caster.First = selected.size();
   shared.GetClusters().Visit(search.Planes,
     [&](const ClusterTree::Items& triangles)
     {
@@ -163,7 +181,7 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
           this->GetPlace(part, surface, b), this->GetPlace(part, surface, c) };
         if (this->MayBlock(placed, part, search))
         {
-          this->AddTriangle(placed, search, caster);
+          this->AddTriangle(placed, search, caster, selected);
         }
       }
     });
@@ -183,13 +201,14 @@ bool OccluderSelector::MayBlock(
     !search.Region.LiesInLight(a, b, c, glm::dot(search.LightNormal, part.Uncertainty));
 }
 
-void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& search, Caster& caster)
+void OccluderSelector::AddTriangle(
+  const Triangle& triangle, const Search& search, Caster& caster, std::vector<Triangle>& selected)
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];
   if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
   {
-    this->Selected.push_back(triangle);
+    selected.push_back(triangle);
     ++caster.Triangles;
     for (const std::uint32_t place : triangle)
     {
@@ -205,7 +224,7 @@ void OccluderSelector::AddTriangle(const Triangle& triangle, const Search& searc
     this->NotePoint(first + i, search, caster);
     if (i > 0 && i + 1 < polygon.size())
     {
-      this->Selected.push_back({ first, first + i, first + i + 1 });
+      selected.push_back({ first, first + i, first + i + 1 });
       ++caster.Triangles;
     }
   }

@@ -110,11 +110,14 @@ struct vtkRadianceBaker::Job
     const penumbra::ReceiverSettings& settings = this->Receiver.Settings;
     const penumbra::SamplingPattern& pattern =
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
-    std::vector<glm::dvec2> points = pattern.Generate(
-      count, static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
-    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
-    points.resize(std::min(
-      points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
+    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all. Translucent
+    // surfaces share it: they leave room for one layer at least, or OpenGL refuses it with an
+    // error.
+    const int most = std::max(vtkVisibilityMask::SamplesPerLayer,
+      vtkVisibilityMask::GetMaximumSamples(this->Window, 1 + this->Plan.Pairs[light].Translucent));
+    std::vector<glm::dvec2> points = pattern.Generate(std::min(count, most),
+      static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
+    points.resize(std::min(points.size(), static_cast<std::size_t>(most)));
     return this->Plan.Lights[light]->TakeSamples(points);
   }
 
@@ -268,11 +271,13 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   return !hasTolerance || this->RefineLights(job);
 }
 
-vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job) const
+vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job, std::size_t light) const
 {
   vtkRadianceResolver::Options options;
   options.Reflectance = job.Receiver.Settings.Reflectance;
   options.Reconstruction = job.Receiver.Settings.Reconstruction;
+  options.Translucent = job.Plan.Pairs[light].Translucent > 0;
+  options.Tinted = job.Plan.Pairs[light].IsTinted;
   return options;
 }
 
@@ -284,7 +289,7 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
     return true;
   }
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
-        job.Resolved, {}, this->GetOptions(job)))
+        job.Resolved, {}, this->GetOptions(job, light)))
   {
     return false;
   }
@@ -309,7 +314,7 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
     return true;
   }
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
-        shaded, pair.Shaded, this->GetOptions(job)))
+        shaded, pair.Shaded, this->GetOptions(job, light)))
   {
     return false;
   }
@@ -320,21 +325,28 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
       { this->Resolver->ResolveMasks(job.Target, job.Region, band, this->Masks, maskFirstTexel); });
 }
 
-void vtkRadianceBaker::SelectOccluders(
+bool vtkRadianceBaker::SelectOccluders(
   Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
 {
-  if (!job.Receiver.Settings.Planner)
+  if (job.Receiver.Settings.Planner)
+  {
+    const penumbra::TexelRectangle around =
+      rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+    const glm::dvec2 texels(job.Plan.Texels);
+    this->Occluders.Select(*job.Plan.Lights[light],
+      glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
+  }
+  else
   {
     this->Occluders.SelectAll(*job.Plan.Lights[light]);
-    this->Geometry->Upload(this->Occluders);
-    return;
   }
-  const penumbra::TexelRectangle around =
-    rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
-  const glm::dvec2 texels(job.Plan.Texels);
-  this->Occluders.Select(*job.Plan.Lights[light],
-    glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
-  this->Geometry->Upload(this->Occluders);
+  std::vector<glm::dvec3> transmittances;
+  for (const penumbra::Caster& caster : this->Occluders.GetTranslucentCasters())
+  {
+    transmittances.push_back(this->Scene->Surfaces[caster.Surface]->Transmittance);
+  }
+  return this->Geometry->Upload(this->Occluders) &&
+    (job.Plan.Pairs[light].Translucent == 0 || this->Resolver->SetTransmittances(transmittances));
 }
 
 template <typename Use>
@@ -348,9 +360,14 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
   const glm::ivec2 size = all.GetSize();
   const int halo = withHalo ? this->Resolver->GetHalo() : 0;
   const int count = static_cast<int>(samples.size());
-  const std::size_t layers =
-    static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
-    vtkVisibilityMask::SamplesPerLayer;
+  if (!this->SelectOccluders(job, light, all))
+  {
+    return false;
+  }
+  const std::size_t sets = this->Geometry->GetNumberOfSets();
+  const std::size_t layers = sets *
+    (static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
+      vtkVisibilityMask::SamplesPerLayer);
   const std::size_t bytesPerRow = static_cast<std::size_t>(size.x) * layers * sizeof(std::uint32_t);
   std::size_t most = this->MaximumMaskBytes;
   if (job.Wanted.Kept)
@@ -363,11 +380,10 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
     static_cast<int>(std::min(most / bytesPerRow, static_cast<std::size_t>(size.y)));
   const int rows = fitting == size.y ? fitting : std::max(fitting - 2 * halo, 1);
   const glm::ivec2 maskSize(size.x, std::min(rows + 2 * halo, size.y));
-  if (!this->Masks->Allocate(job.Window, maskSize, count))
+  if (!this->Masks->Allocate(job.Window, maskSize, count, sets))
   {
     return false;
   }
-  this->SelectOccluders(job, light, all);
   const std::vector<penumbra::RegisteredProjection> projections =
     MakeProjections(samples, job.Plan.Frame);
   for (int row = rectangle.Low.y; row < rectangle.High.y; row += rows)
@@ -432,7 +448,7 @@ bool vtkRadianceBaker::RefineLight(
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const bool grows =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Grows;
-  vtkRadianceResolver::Options options = this->GetOptions(job);
+  vtkRadianceResolver::Options options = this->GetOptions(job, light);
   options.InBatches = true;
   const penumbra::TexelRectangle& shaded = job.Plan.Pairs[light].Shaded;
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
@@ -482,14 +498,20 @@ bool vtkRadianceBaker::BakeFromKept(
 {
   const penumbra::PairPlan& pair = job.Plan.Pairs[light];
   KeptLight& kept = (*job.Wanted.Kept)[light];
-  vtkRadianceResolver::Options options = this->GetOptions(job);
+  vtkRadianceResolver::Options options = this->GetOptions(job, light);
   options.Kept = &kept.Shares;
+  if (kept.Shares.GetCount() !=
+    vtkRadianceResolver::CountShares(*job.Plan.Lights[light], pair.IsTinted))
+  {
+    kept = KeptLight(); // a tint has come or gone
+  }
   const bool isNew = kept.Shares.Stored.IsEmpty();
   const int halo = options.Reconstruction ? vtkRadianceResolver::GetReconstructionHalo() : 0;
   const penumbra::TexelRectangle needed =
     pair.Shaded.Grown(halo).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+  const penumbra::LightShape& seen = *job.Plan.Lights[light];
   const auto bytes = static_cast<std::size_t>(kept.Shares.Stored.Union(needed).GetArea()) *
-    vtkRadianceResolver::GetKeptBytesPerTexel(*job.Plan.Lights[light]);
+    vtkRadianceResolver::GetKeptBytesPerTexel(seen, pair.IsTinted);
   // New shares are kept of whole bakes alone, and all only while there is room.
   if (bytes > job.KeptBytes ||
     (isNew ? job.Resolved != penumbra::WholeRectangle(job.Plan.Texels)

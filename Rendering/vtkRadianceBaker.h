@@ -145,7 +145,7 @@ private:
   bool BakeLight(Job& job, std::size_t light, int count);
   bool BakeShaded(Job& job, std::size_t light, int count);
   bool BakeFromKept(Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded);
-  void SelectOccluders(Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
+  bool SelectOccluders(Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
   /// ErrorTolerance: more samples for the lights, until they have enough of them.
   bool RefineLights(Job& job);
   bool RefineLight(Job& job, std::size_t light, double allowed, vtkRadianceTexture* scratch);
@@ -154,7 +154,7 @@ private:
   template <typename Use>
   bool DrawMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
     const penumbra::TexelRectangle& rectangle, bool withHalo, const Use& use);
-  vtkRadianceResolver::Options GetOptions(const Job& job) const;
+  vtkRadianceResolver::Options GetOptions(const Job& job, std::size_t light) const;
 
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
   const penumbra::ShadowScene* Scene = nullptr;

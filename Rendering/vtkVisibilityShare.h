@@ -6,7 +6,8 @@
  *
  * Of one light on one receiver: Begin(), then SetSamples() and Count() for the rows whose masks
  * have been drawn (vtkVisibilityShareFS.glsl). More samples may follow: what they say is combined
- * with what the earlier ones said.
+ * with what the earlier ones said. Where translucent surfaces weaken the light, samples are weighed
+ * by what these let through, by another variant of the shader.
  */
 #ifndef vtkVisibilityShare_h
 #define vtkVisibilityShare_h
@@ -36,10 +37,12 @@ public:
 
   /**
    * Take up a light on a receiver of the given texels: `seen` is its part in front of the receiver.
-   * The textures have the given size. False, after vtkErrorMacro, if OpenGL refuses.
+   * The textures have the given size. With `translucent`, SetTransmittances() will be called.
+   * False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
-    const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size);
+    const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
+    bool translucent);
 
   /**
    * The samples whose masks will come. The first half (the greater, if their number is odd) and the
@@ -49,6 +52,12 @@ public:
    */
   bool SetSamples(const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels,
     int previousCount);
+
+  /**
+   * What the translucent surfaces let through whose masks will come, in their order, of the light
+   * that this share is of. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool SetTransmittances(const std::vector<double>& transmittances);
 
   /**
    * Count a rectangle of the receiver's texels into the texture, where the receiver's texel
@@ -95,10 +104,12 @@ private:
   penumbra::ReceiverFrame Frame;
   glm::ivec2 Texels{ 1 };
   bool HasCells = false;
+  bool IsTranslucent = false;
+  int TranslucentCount = 0;
   int SampleCount = 0;
   int PreviousCount = 0;
-  vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer;
-  vtkNew<vtkTextureObject> Samples, Cells;
+  vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer, TransmittanceBuffer;
+  vtkNew<vtkTextureObject> Samples, Cells, Transmittances;
   /// The one that is counted into, and the answer of earlier samples.
   vtkNew<vtkStageTexture> Textures[2];
   int Current = 0; ///< the former

@@ -18,8 +18,10 @@
 #define EMISSION_POINT 2
 #define EMISSION_CELLS 3
 //Penumbra::Emission::Dec
+// TRANSLUCENT: whether translucent surfaces may weaken samples, too.
+//Penumbra::Translucent::Dec
 
-uniform usampler2DArray masks; // bit s % 32 of layer s / 32: is sample s blocked?
+uniform usampler2DArray masks; // bit s % 32 of layer s / 32: is sample s blocked by what is opaque?
 uniform ivec2 maskFirstTexel;  // the receiver's texel that is (0, 0) of the masks
 uniform samplerBuffer samples; // xyz: place in the metric frame; w: 0 for a direction, else 1
 uniform samplerBuffer cells;   // of EMISSION_CELLS: xyz: the cell's normal; w: the power of the sample
@@ -29,6 +31,11 @@ uniform vec3 lightAxis;        // in the metric frame
 uniform int lightTwoSided;
 uniform sampler2D previous;    // the answer of earlier samples
 uniform int previousCount;     // how many they were
+#if TRANSLUCENT
+// The masks of each translucent surface follow those of what is opaque, in as many layers.
+uniform samplerBuffer transmittances; // x: what each lets through
+uniform int translucentCount;
+#endif
 
 uint blockedBits(ivec2 texel, int word)
 {
@@ -62,6 +69,49 @@ float sampleWeight(int i, vec3 x)
 #endif
 }
 
+#if TRANSLUCENT
+uint translucentBits(ivec2 texel, int surface, int word)
+{
+  return blockedBits(texel, (surface + 1) * ((sampleCount + 31) >> 5) + word);
+}
+
+// The bits of the samples that any translucent surface weakens.
+uint weakenedBits(ivec2 texel, int word)
+{
+  uint bits = 0u;
+  for (int surface = 0; surface < translucentCount; ++surface)
+  {
+    bits |= translucentBits(texel, surface, word);
+  }
+  return bits;
+}
+
+// What the translucent surfaces let through of a sample: the product over those that it passes.
+float passingShare(ivec2 texel, int i)
+{
+  float share = 1.0;
+  for (int surface = 0; surface < translucentCount; ++surface)
+  {
+    uint bit = translucentBits(texel, surface, i >> 5) >> uint(i & 31) & 1u;
+    share *= bit != 0u ? texelFetch(transmittances, surface).x : 1.0;
+  }
+  return share;
+}
+
+// As sumWord(), where samples are weakened.
+vec2 sumWeakenedWord(uint blocked, int begin, int end, ivec2 texel, vec3 x)
+{
+  vec2 part = vec2(0.0);
+  for (int i = begin; i < end; ++i)
+  {
+    float w = sampleWeight(i, x);
+    part += vec2((blocked & 1u) == 0u ? w * passingShare(texel, i) : 0.0, w);
+    blocked >>= 1;
+  }
+  return part;
+}
+#endif
+
 // The weights of the samples that are seen (x) and of all (y), in [begin, end), which is within one word:
 // its bits from begin on are `blocked`. A loop without branches, for software OpenGL's vectors.
 vec2 sumWord(uint blocked, int begin, int end, vec3 x)
@@ -83,7 +133,13 @@ vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x)
   for (int i = begin; i < end;)
   {
     int stop = min(end, (i | 31) + 1);
-    total += sumWord(blockedBits(texel, i >> 5) >> uint(i & 31), i, stop, x);
+    uint blocked = blockedBits(texel, i >> 5) >> uint(i & 31);
+#if TRANSLUCENT
+    total += weakenedBits(texel, i >> 5) != 0u ? sumWeakenedWord(blocked, i, stop, texel, x)
+                                               : sumWord(blocked, i, stop, x);
+#else
+    total += sumWord(blocked, i, stop, x);
+#endif
     i = stop;
   }
   return total;
@@ -92,12 +148,15 @@ vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x)
 // The share of these samples that is seen from x, and half the difference of the halves.
 vec2 seenShare(ivec2 texel, vec3 x)
 {
-  bool someBlocked = false;
+  bool someBlocked = false; // or weakened
   bool someSeen = false;
   for (int word = 0; 32 * word < sampleCount; ++word)
   {
     uint bits = blockedBits(texel, word);
     someBlocked = someBlocked || bits != 0u;
+#if TRANSLUCENT
+    someBlocked = someBlocked || weakenedBits(texel, word) != 0u;
+#endif
     someSeen = someSeen || bits != allBits(word);
   }
   if (!someBlocked || !someSeen)
