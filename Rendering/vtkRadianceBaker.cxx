@@ -503,7 +503,8 @@ bool vtkRadianceBaker::BakeFromKept(
   if (kept.Shares.GetCount() !=
     vtkRadianceResolver::CountShares(*job.Plan.Lights[light], pair.IsTinted))
   {
-    kept = KeptLight(); // a tint has come or gone
+    kept.Shares.Release(); // a tint has come or gone
+    kept = KeptLight();
   }
   const bool isNew = kept.Shares.Stored.IsEmpty();
   const int halo = options.Reconstruction ? vtkRadianceResolver::GetReconstructionHalo() : 0;
