@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkAreaLightFromSurface.h"
 
+#include "PolyDataStructure.h"
 #include "ShadowSettings.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -48,6 +49,23 @@ vtkSmartPointer<vtkPolyData> MakePolygons(vtkPolyData* input)
     polygons->GetCellData()->CopyData(surfaces->GetCellData(), first + i, i);
   }
   return polygons;
+}
+
+/// VTK copies the values of all cell arrays, cell by cell.
+std::string FindCountProblem(vtkPolyData* input)
+{
+  vtkCellData* cellData = input->GetCellData();
+  for (int i = 0; i < cellData->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = cellData->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != input->GetNumberOfCells())
+    {
+      return "cell array '" + std::string(array->GetName() ? array->GetName() : "") + "' has " +
+        std::to_string(array->GetNumberOfTuples()) + " values; allowed: one for each of the " +
+        std::to_string(input->GetNumberOfCells()) + " cells";
+    }
+  }
+  return "";
 }
 
 std::string FindArrayProblem(vtkDataArray* array, const std::string& name)
@@ -104,9 +122,18 @@ int vtkAreaLightFromSurface::RequestData(
   settings.Radiance = glm::make_vec3(this->Radiance);
   settings.TwoSided = this->TwoSided;
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const std::string name = this->GetRadianceArray();
   const bool hasArray = !name.empty() && name != "None";
   std::string problem = settings.FindProblem();
+  if (problem.empty())
+  {
+    problem = penumbra::FindStructureProblem(input);
+  }
+  if (problem.empty())
+  {
+    problem = FindCountProblem(input);
+  }
   if (problem.empty() && hasArray)
   {
     problem = FindArrayProblem(input->GetCellData()->GetArray(name.c_str()), name);
@@ -132,9 +159,9 @@ int vtkAreaLightFromSurface::RequestData(
   if (!problem.empty())
   {
     vtkErrorMacro("AreaLightFromSurface: " << problem << ".");
-    return 1; // with an empty output; the executive's own error would only repeat it
+    output->Initialize(); // the executive has passed on what made a light of the input
+    return 1;             // its own error would only repeat this one
   }
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
   output->ShallowCopy(polygons);
   vtkShadowFieldData::Write(settings, output->GetFieldData());
   return 1;

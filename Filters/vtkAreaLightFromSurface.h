@@ -10,8 +10,9 @@
  * light: its samples are spread over the cells by power, without bias. It blocks no light itself.
  *
  * Polygons must be planar and convex; one that is not is an error, which names it, and gives an
- * empty output. So does an array that is missing or has values out of range. Polygons without area
- * or radiance emit nothing; a surface of nothing else is an error, too.
+ * empty output. So do cells that name points that are not there, and an array that is missing, is
+ * of another size than the cells, or has values out of range. Polygons without area or radiance
+ * emit nothing; a surface of nothing else is an error, too.
  *
  * The output is the polygons, with the cell array PenumbraRadiance (double, 3 components: W sr^-1
  * m^-2) and the light's settings as field data.

@@ -20,6 +20,7 @@
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 
@@ -168,6 +169,23 @@ vtkOpenGLRenderWindow* vtkRadianceMap::GetOpenGLWindow()
   return window;
 }
 
+int vtkRadianceMap::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+  return 1;
+}
+
 int vtkRadianceMap::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -182,6 +200,13 @@ int vtkRadianceMap::RequestData(
   const penumbra::ShadowScene& scene = builder->GetScene();
   if (scene.Receivers.empty())
   {
+    return 1;
+  }
+  if (outputVector->GetInformationObject(0)->Get(
+        vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    // The first piece is everything; writers want the same blocks in all of them.
+    output->SetNumberOfBlocks(static_cast<unsigned int>(scene.Receivers.size()));
     return 1;
   }
   vtkOpenGLRenderWindow* window = this->GetOpenGLWindow();
@@ -203,6 +228,10 @@ int vtkRadianceMap::RequestData(
     const auto reports = baker->Bake(scene, receivers, window, texture);
     for (std::size_t i = 0; i < reports.size(); ++i)
     {
+      if (!reports[i].IsComplete)
+      {
+        continue;
+      }
       const penumbra::Receiver& receiver = scene.Receivers[reports[i].Receiver];
       vtkNew<vtkStructuredGrid> grid;
       AddPoints(receiver, grid);

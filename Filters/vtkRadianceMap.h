@@ -23,7 +23,7 @@
  * - Visibility (float): of the light that would arrive unoccluded, ambient radiance aside, the
  * share that does, in the mean of the components; 1 where none would arrive;
  * - ErrorEstimate (float): standard error of the mean of the radiance's components, from the
- * difference of two halves of the samples; and the field data
+ * difference of two halves of the samples (0 by one sample, which has none); and the field data
  * - LightSamples (int, one tuple a light): samples taken; 0 where none were needed;
  * - Effect (string, one a light): "None", "Unoccluded" or "Soft";
  * - StoppedBy (string): the property that decided how many samples were taken: "LightSamples",
@@ -76,6 +76,9 @@ protected:
   ~vtkRadianceMap() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  /// Whatever piece is asked for, all of the scene: a shadow may come from anywhere.
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

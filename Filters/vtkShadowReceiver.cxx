@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowReceiver.h"
 
+#include "PolyDataStructure.h"
 #include "ShadowSettings.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -10,6 +11,7 @@
 #include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -23,6 +25,14 @@ int vtkShadowReceiver::RequestData(
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const std::string structure = penumbra::FindStructureProblem(input);
+  if (!structure.empty())
+  {
+    // VTK could not draw it either: the output stays empty, but for what was said of it.
+    vtkErrorMacro("ShadowReceiver: " << structure << ".");
+    vtkShadowFieldData::WriteRefusal(structure, output->GetFieldData());
+    return 1;
+  }
   output->ShallowCopy(input);
 
   penumbra::ReceiverSettings settings;
@@ -51,6 +61,14 @@ int vtkShadowReceiver::RequestData(
   vtkFieldData* fieldData = output->GetFieldData();
   vtkShadowFieldData::Write(
     vtkShadowFieldData::ReadCaster(fieldData).Overridden(caster), fieldData);
+  // Of data that are spread over processes, some may hold nothing.
+  const int pieces = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces > 1 && input->GetNumberOfCells() == 0)
+  {
+    vtkShadowFieldData::WriteRefusal("this process holds none of it", fieldData);
+    return 1;
+  }
   const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {

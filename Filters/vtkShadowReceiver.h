@@ -13,7 +13,8 @@
  * A surface that is curved, or has no polygon with an area, is an error and passes without
  * settings, but with the error as field data: it will be drawn plain, not baked, and nobody reports
  * it again. So is a property out of its range. With ProxyPlane, a curved surface receives by a
- * plane that stands for it.
+ * plane that stands for it. Data whose cells name points that are not there, which VTK cannot draw
+ * either, give an empty output.
  *
  * @sa vtkAreaLightSource, vtkRadianceMap, vtkSoftShadowPass
  */

@@ -38,6 +38,7 @@ double DirectionalLight::GetRadius() const
 DirectionalLight DirectionalLight::Transformed(const glm::dmat4& matrix) const
 {
   DirectionalLight result(glm::dmat3(matrix) * -this->Source, this->AngularDiameter);
+  result.SetFirstAxis(glm::dmat3(matrix) * this->Disk.GetFirstAxis());
   result.IsThere = result.IsThere && this->IsThere;
   result.Radiance = this->Radiance;
   result.TwoSided = this->TwoSided;

@@ -31,6 +31,10 @@ public:
   const glm::dvec3& GetSource() const { return this->Source; }
 
   /// Turns with the matrix; the angular diameter stays.
+  /// Turns the samples around the direction, as DiskLight does.
+  void SetFirstAxis(const glm::dvec3& axis) { this->Disk.SetFirstAxis(axis); }
+
+  /// The samples go with the map.
   DirectionalLight Transformed(const glm::dmat4& matrix) const;
   DirectionalLight ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const;
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace penumbra
 {
@@ -141,6 +142,11 @@ DiskLight::DiskLight(const glm::dvec3& centre, const glm::dvec3& normal, double 
   }
 }
 
+void DiskLight::SetFirstAxis(const glm::dvec3& direction)
+{
+  this->CutDirection = NormalizeAcross(direction, this->Normal, this->CutDirection);
+}
+
 std::vector<glm::dvec3> DiskLight::GetRim(int count) const
 {
   const glm::dvec3 y = glm::cross(this->Normal, this->CutDirection);
@@ -163,6 +169,7 @@ DiskLight DiskLight::Transformed(const glm::dmat4& matrix) const
   const glm::dvec3 area = glm::cross(x, y) * (glm::determinant(linear) < 0.0 ? -1.0 : 1.0);
   DiskLight result(glm::dvec3(matrix * glm::dvec4(this->Centre, 1.0)), area,
     this->Radius * std::sqrt(glm::length(area)));
+  result.SetFirstAxis(x);
   result.Radiance = this->Radiance;
   result.TwoSided = this->TwoSided;
   return result;
@@ -174,11 +181,14 @@ DiskLight DiskLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& n
   const double height = glm::dot(this->Centre - point, normal);
   const glm::dvec3 across = normal - glm::dot(normal, this->Normal) * this->Normal;
   const double reach = this->Radius * glm::length(across); // of the heights around the centre's
-  if (height < 0.0 ? -height >= reach : reach == 0.0 && height == 0.0)
+  // As of a polygon: what is no higher than the rounding of the coordinates lies in the plane.
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() *
+    (std::max(glm::length(point), glm::length(this->Centre)) + this->Radius);
+  if (height + reach <= rounding)
   {
     result.Radius = 0.0; // below the plane or in it
   }
-  else if (height < reach)
+  else if (height < reach && reach > rounding)
   {
     result.CutDirection = glm::normalize(across);
     result.CutOffset = -height / reach;
@@ -287,11 +297,8 @@ std::vector<double> DiskLight::GetKey() const
   std::vector<double> key = this->MakeKey(1);
   key.insert(key.end(),
     { this->Centre.x, this->Centre.y, this->Centre.z, this->Normal.x, this->Normal.y,
-      this->Normal.z, this->Radius, this->CutOffset });
-  if (this->CutOffset > -1.0)
-  {
-    key.insert(key.end(), { this->CutDirection.x, this->CutDirection.y, this->CutDirection.z });
-  }
+      this->Normal.z, this->Radius, this->CutOffset, this->CutDirection.x, this->CutDirection.y,
+      this->CutDirection.z });
   return key;
 }
 

@@ -29,8 +29,13 @@ public:
   /// Points on the rim, counter-clockwise seen from the front.
   std::vector<glm::dvec3> GetRim(int count) const;
 
-  /// An affine map that is not a similarity makes an ellipse, for which a disk of the same area
-  /// around the same centre is taken.
+  /// Turns the samples within the disk: where s.x of Sample() grows, from the centre along this
+  /// direction, as far as it lies in the disk's plane.
+  void SetFirstAxis(const glm::dvec3& direction);
+  const glm::dvec3& GetFirstAxis() const { return this->CutDirection; }
+
+  /// The samples go with the map. An affine map that is not a similarity makes an ellipse, for
+  /// which a disk of the same area around the same centre is taken.
   DiskLight Transformed(const glm::dmat4& matrix) const;
   DiskLight ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Drawing with a fragment shader alone.
+ * Shader programs, and drawing with a fragment shader alone.
  */
 #ifndef FullScreenTriangle_h
 #define FullScreenTriangle_h
@@ -12,6 +12,13 @@ class vtkShaderProgram;
 
 namespace penumbra
 {
+
+/**
+ * The window's program of those shaders, ready for uniforms; nullptr if they do not compile, which
+ * VTK reports. The next time they are compiled anew. The window owns it.
+ */
+vtkShaderProgram* ReadyProgram(
+  vtkOpenGLRenderWindow* window, const char* vertexShader, const char* fragmentShader);
 
 /**
  * The window's program of that fragment shader, ready for uniforms; nullptr if it does not compile.

@@ -27,7 +27,7 @@ struct LightSample
   glm::dvec3 Place{ 0.0 };  ///< world coordinates
   bool IsDirection = false; ///< Place is a direction, towards an emitter that is infinitely far
   /// Of Emission::Cells alone: the unit normal of the cell, and radiance times area that the sample
-  /// stands for.
+  /// would stand for if it were the only one.
   glm::dvec3 Normal{ 0.0 };
   glm::dvec3 Power{ 0.0 };
 };

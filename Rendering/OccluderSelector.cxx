@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr std::uint32_t NoPlace = std::numeric_limits<std::uint32_t>::max();
+/// Points of a PlaceTable's page: 4 KiB, as much as a page of memory.
+constexpr std::size_t PageSize = 1024;
 /// A point outside of a receiver is judged by a plane through points within it.
 constexpr double RoundingsOfPlane = 3.0;
 
@@ -46,6 +48,23 @@ bool IsDegenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 }
 
 } // namespace
+
+void OccluderSelector::PlaceTable::Resize(std::size_t points)
+{
+  this->Size = points;
+  this->Pages.assign((points + PageSize - 1) / PageSize, {});
+}
+
+std::uint32_t& OccluderSelector::PlaceTable::operator[](std::uint32_t point)
+{
+  const std::size_t index = point / PageSize;
+  std::vector<std::uint32_t>& page = this->Pages[index];
+  if (page.empty())
+  {
+    page.assign(std::min(PageSize, this->Size - index * PageSize), NoPlace);
+  }
+  return page[point % PageSize];
+}
 
 void OccluderSelector::SetScene(const ShadowScene& scene)
 {
@@ -83,7 +102,7 @@ OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
   if (isNew)
   {
     const SharedSurface& shared = this->Scene->Surfaces[surface];
-    part.Places.assign(shared->Points.size(), NoPlace);
+    part.Places.Resize(shared->Points.size());
     part.Uncertainty = GetUncertainty(shared, this->Frame.GetBase());
     const glm::dvec3 ownRounding = this->Scene->Surfaces[this->Base->Surface]->Rounding;
     part.Contact = glm::dot(glm::abs(this->Frame.GetNormal()),

@@ -71,12 +71,24 @@ public:
   void Clear();
 
 private:
+  /// Of each point of a surface its index in Points, or NoPlace. It is made by pages, where points
+  /// are looked at: what is elsewhere in a large surface costs a receiver next to nothing.
+  class PlaceTable
+  {
+  public:
+    void Resize(std::size_t points);
+    std::uint32_t& operator[](std::uint32_t point);
+
+  private:
+    std::size_t Size = 0;
+    std::vector<std::vector<std::uint32_t>> Pages;
+  };
   /// What is known of a surface in the receiver's frame.
   struct Part
   {
-    std::vector<std::uint32_t> Places; ///< of its points in Points, or NoPlace
-    glm::dvec3 Uncertainty{ 0.0 };     ///< of its points, in the world, along each axis
-    double Contact = 0.0;              ///< the height up to which a point may lie in the receiver
+    PlaceTable Places;
+    glm::dvec3 Uncertainty{ 0.0 }; ///< of its points, in the world, along each axis
+    double Contact = 0.0;          ///< the height up to which a point may lie in the receiver
   };
   /// What Select() goes by.
   struct Search

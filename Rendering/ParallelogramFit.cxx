@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParallelogramFit.h"
 
+#include "Coordinates.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -195,7 +197,7 @@ std::optional<Parallelogram> FitParallelogram(
     extent = std::max(extent, glm::length(d));
     largest = std::max(largest, glm::length(points[i]));
   }
-  if (!(extent > 0.0) || !std::isfinite(extent))
+  if (!(extent > 0.0) || !(largest <= 2.0 * MaximumCoordinate))
   {
     return std::nullopt;
   }
@@ -212,7 +214,8 @@ std::optional<Parallelogram> FitParallelogram(
   Simplify(hull, tolerance);
   // Points on a line span the area of their own rounding.
   if (hull.size() < 3 ||
-    !(HullArea(hull) > 4.0 * std::numeric_limits<double>::epsilon() * largest * extent))
+    !(HullArea(hull) >
+      std::max(SmallestArea, 4.0 * std::numeric_limits<double>::epsilon() * largest * extent)))
   {
     return std::nullopt;
   }

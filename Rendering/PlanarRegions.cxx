@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlanarRegions.h"
 
+#include "Coordinates.h"
 #include "ParallelogramFit.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ const double FeatureAngle = glm::radians(29.99); // 30 degrees, if rounded
 /// A polygon that is thinner than this share of its length has no normal worth comparing.
 constexpr double SliverTolerance = 1e-4;
 
-/// Newell's method: the vector area of a polygon, planar or not.
+/// Newell's method: the vector area of a polygon, planar or not; 0 if it is too small to tell.
 glm::dvec3 AreaVector(const PolygonMesh& mesh, const std::vector<int>& polygon)
 {
   const auto point = [&](std::size_t i)
@@ -32,7 +33,7 @@ glm::dvec3 AreaVector(const PolygonMesh& mesh, const std::vector<int>& polygon)
   {
     sum += 0.5 * glm::cross(point(i) - point(0), point(i + 1) - point(0));
   }
-  return sum;
+  return glm::length(sum) >= SmallestArea ? sum : glm::dvec3(0.0);
 }
 
 double LongestEdge(const PolygonMesh& mesh, const std::vector<int>& polygon)
@@ -266,7 +267,7 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   result.RegionOfPolygon.assign(mesh.Polygons.size(), -1);
   for (const glm::dvec3& point : mesh.Points)
   {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+    if (!IsInRange(point))
     {
       result.Problem = NotFiniteProblem;
       return result;

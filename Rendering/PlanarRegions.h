@@ -33,9 +33,10 @@ struct PlanarRegion
   Parallelogram Base;
 };
 
-/// The problem of a mesh with a coordinate that is not finite.
+/// The problem of a mesh with a coordinate that is not finite, or too large (Coordinates.h).
 constexpr const char* NotFiniteProblem =
-  "a point has a coordinate that is not finite (nan or inf); allowed: finite coordinates";
+  "a point has a coordinate that is not finite (nan or inf) or beyond 1e75; allowed: finite "
+  "coordinates of up to 1e75";
 
 /// The problem of a mesh without a polygon that has an area.
 constexpr const char* NoAreaProblem =

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PolygonLight.h"
 
+#include "Coordinates.h"
+
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -75,7 +77,8 @@ PolygonLight::PolygonLight(std::vector<glm::dvec3> vertices, SampleMap map)
   }
   const double area = glm::length(areaVector);
   // Points on a line span the area of their own rounding.
-  if (!(area > 4.0 * DBL_EPSILON * largest * extent) || !std::isfinite(area))
+  if (!(area > std::max(SmallestArea, 4.0 * DBL_EPSILON * largest * extent)) ||
+    !std::isfinite(area))
   {
     this->Vertices.clear();
     this->FanShares.clear();

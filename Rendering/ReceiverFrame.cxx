@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReceiverFrame.h"
 
+#include "Coordinates.h"
+
 #include <cmath>
 
 namespace penumbra
@@ -12,7 +14,8 @@ ReceiverFrame::ReceiverFrame(const Parallelogram& base, Side side)
 {
   const glm::dvec3 areaVector = glm::cross(base.EdgeX, base.EdgeY);
   const double area = glm::length(areaVector);
-  if (!(area > 0.0) || !std::isfinite(area) || !std::isfinite(glm::dot(base.Corner, base.Corner)))
+  if (!(area >= SmallestArea) || !std::isfinite(area) ||
+    !std::isfinite(glm::dot(base.Corner, base.Corner)))
   {
     return;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShadowSettings.h"
 
+#include "Coordinates.h"
 #include "DirectionalLight.h"
 #include "DiskLight.h"
 #include "PointLight.h"
@@ -18,11 +19,6 @@ namespace penumbra
 {
 namespace
 {
-
-bool IsFinite(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// "Name is VALUE; allowed: WHAT".
 template <typename Value>
@@ -42,7 +38,7 @@ std::string Describe(const char* name, const glm::dvec3& v, const std::string& a
 
 bool IsIn(const glm::dvec3& v, double low, double high)
 {
-  return IsFinite(v) && glm::all(glm::greaterThanEqual(v, glm::dvec3(low))) &&
+  return glm::all(glm::greaterThanEqual(v, glm::dvec3(low))) &&
     glm::all(glm::lessThanEqual(v, glm::dvec3(high)));
 }
 
@@ -132,9 +128,9 @@ std::string ReceiverSettings::FindProxyProblem() const
   {
     return "";
   }
-  if (!IsFinite(this->ProxyOrigin))
+  if (!IsInRange(this->ProxyOrigin))
   {
-    return Describe("ProxyOrigin", this->ProxyOrigin, "finite coordinates");
+    return Describe("ProxyOrigin", this->ProxyOrigin, AllowedCoordinates);
   }
   const double length = glm::length(this->ProxyNormal);
   return length > 0.0 && std::isfinite(length)
@@ -199,17 +195,17 @@ std::string LightSettings::FindProblem() const
     return Describe("Shape", shape,
       "0 (Parallelogram), 1 (Triangle), 2 (Disk), 3 (Segment), 4 (Point) or 5 (Directional)");
   }
-  if (!IsFinite(this->Origin))
+  if (!IsInRange(this->Origin))
   {
-    return Describe("Origin", this->Origin, "finite coordinates");
+    return Describe("Origin", this->Origin, AllowedCoordinates);
   }
-  if (!IsFinite(this->Point1))
+  if (!IsInRange(this->Point1))
   {
-    return Describe("Point1", this->Point1, "finite coordinates");
+    return Describe("Point1", this->Point1, AllowedCoordinates);
   }
-  if (!IsFinite(this->Point2))
+  if (!IsInRange(this->Point2))
   {
-    return Describe("Point2", this->Point2, "finite coordinates");
+    return Describe("Point2", this->Point2, AllowedCoordinates);
   }
   if (!IsIn(this->Radiance, 0.0, MaximumRadiance))
   {
@@ -242,20 +238,29 @@ Light LightSettings::MakeLight() const
 
 Light LightSettings::MakeShape() const
 {
+  // Samples go with the points, so that a light that turns does not flicker.
   const glm::dvec3 toPoint1 = this->Point1 - this->Origin;
+  const glm::dvec3 toPoint2 = this->Point2 - this->Origin;
   switch (this->Shape)
   {
     case LightKind::Triangle:
       return PolygonLight::Triangle(this->Origin, this->Point1, this->Point2);
     case LightKind::Disk:
-      return DiskLight(
-        this->Origin, glm::cross(toPoint1, this->Point2 - this->Origin), glm::length(toPoint1));
+    {
+      DiskLight disk(this->Origin, glm::cross(toPoint1, toPoint2), glm::length(toPoint1));
+      disk.SetFirstAxis(toPoint1);
+      return disk;
+    }
     case LightKind::Segment:
       return SegmentLight(this->Origin, this->Point1);
     case LightKind::Point:
       return PointLight(this->Origin);
     case LightKind::Directional:
-      return DirectionalLight(toPoint1, this->AngularDiameter);
+    {
+      DirectionalLight sun(toPoint1, this->AngularDiameter);
+      sun.SetFirstAxis(toPoint2);
+      return sun;
+    }
     default:
       return PolygonLight::Parallelogram(this->Origin, this->Point1, this->Point2);
   }

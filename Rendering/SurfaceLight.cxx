@@ -206,8 +206,7 @@ std::vector<LightSample> SurfaceLight::TakeSamples(const std::vector<glm::dvec2>
     LightSample& sample = samples.emplace_back();
     sample.Place = cell.Sample({ std::clamp((s.x - begin) / share, 0.0, 1.0), s.y });
     sample.Normal = cell.GetNormal();
-    sample.Power = this->Radiance * cell.Radiance * cell.GetArea() /
-      (share * static_cast<double>(pattern.size()));
+    sample.Power = this->Radiance * cell.Radiance * cell.GetArea() / share;
   }
   return samples;
 }

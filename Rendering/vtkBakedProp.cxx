@@ -323,6 +323,10 @@ double vtkBakedProp::CountTexels() const
 std::vector<glm::vec4> vtkBakedProp::Download(
   const penumbra::ShadowScene& scene, std::size_t entry, vtkOpenGLRenderWindow* window)
 {
+  if (this->IsTextured && !this->Texture->IsAllocated())
+  {
+    return {}; // it went with its window
+  }
   if (this->IsTextured && this->Entries[entry].Vertices == 0)
   {
     return this->Texture->Download(this->Texture->GetRegions()[entry]).Irradiance;

@@ -96,7 +96,8 @@ bool vtkClosedForm::Begin(vtkOpenGLRenderWindow* window, const penumbra::Receive
   {
     if (!this->PrepareProgram(IsLow(frame, *polygon.Polygon)))
     {
-      vtkErrorMacro("The shader of unoccluded lights did not compile.");
+      vtkErrorMacro("The shader of unoccluded lights did not compile. There is no bake; update the "
+                    "OpenGL driver.");
       return false;
     }
   }

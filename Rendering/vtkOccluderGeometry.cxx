@@ -4,6 +4,7 @@
 
 #include "vtkOccluderGeometry.h"
 
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLVertexArrayObject.h"
@@ -40,12 +41,15 @@ bool vtkOccluderGeometry::Upload(const penumbra::OccluderSelector& occluders)
   std::vector<glm::vec3> vertices(points.size());
   std::transform(points.begin(), points.end(), vertices.begin(),
     [](const glm::dvec3& p) { return glm::vec3(p); });
+  penumbra::ForgetOpenGLErrors();
   if (!this->Vertices->Upload(
         vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
     !this->Indices->Upload(
-      triangles.front().data(), 3 * triangles.size(), vtkOpenGLBufferObject::ElementArrayBuffer))
+      triangles.front().data(), 3 * triangles.size(), vtkOpenGLBufferObject::ElementArrayBuffer) ||
+    penumbra::HasOpenGLError())
   {
-    vtkErrorMacro("OpenGL refused buffers of " << triangles.size() << " triangles.");
+    vtkErrorMacro("OpenGL refused buffers for " << triangles.size()
+                                                << " triangles that may cast shadows; use fewer.");
     this->Sets.clear();
     return false;
   }

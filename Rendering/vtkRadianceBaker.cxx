@@ -4,17 +4,18 @@
 
 #include "vtkRadianceBaker.h"
 
+#include "OpenGLErrors.h"
 #include "RegisteredProjection.h"
 #include "SamplingPattern.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
-#include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRadianceResolver.h"
 #include "vtkRadianceTexture.h"
 #include "vtkTimerLog.h"
 #include "vtkVisibilityMask.h"
+#include "vtkVisibilityShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,6 @@ namespace
 /// The lowest height of a sample, in units of the receiver's size: on the plane itself it would
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
-
-/// The first samples of a light whose error is to be found: fewer say little of it.
-constexpr int FirstBatch = 64;
 
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
@@ -100,6 +98,22 @@ struct vtkRadianceBaker::Job
   std::size_t KeptBytes = 0;         ///< that are left of Wanted's
   Report Result;
 
+  /// How many samples of a light there are after each batch, with ErrorTolerance.
+  std::vector<int> GetBatchEnds(std::size_t light) const
+  {
+    return vtkVisibilityShare::GetBatchEnds(
+      std::min(this->Receiver.Settings.MaximumLightSamples, this->GetMaximumSamples(light)));
+  }
+
+  /// The most samples that OpenGL has room for. OpenGL 3.2 promises it for 8192; Mesa and most
+  /// drivers have it for all. Translucent surfaces share it: they leave room for one layer at
+  /// least, or OpenGL refuses it with an error.
+  int GetMaximumSamples(std::size_t light) const
+  {
+    return std::max(vtkVisibilityMask::SamplesPerLayer,
+      vtkVisibilityMask::GetMaximumSamples(this->Window, 1 + this->Plan.Pairs[light].Translucent));
+  }
+
   /// A pattern's points for a light.
   std::vector<penumbra::LightSample> TakeSamples(std::size_t light, int count) const
   {
@@ -110,11 +124,7 @@ struct vtkRadianceBaker::Job
     const penumbra::ReceiverSettings& settings = this->Receiver.Settings;
     const penumbra::SamplingPattern& pattern =
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
-    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all. Translucent
-    // surfaces share it: they leave room for one layer at least, or OpenGL refuses it with an
-    // error.
-    const int most = std::max(vtkVisibilityMask::SamplesPerLayer,
-      vtkVisibilityMask::GetMaximumSamples(this->Window, 1 + this->Plan.Pairs[light].Translucent));
+    const int most = this->GetMaximumSamples(light);
     std::vector<glm::dvec2> points = pattern.Generate(std::min(count, most),
       static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
     points.resize(std::min(points.size(), static_cast<std::size_t>(most)));
@@ -136,6 +146,12 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   const std::vector<std::size_t>& receivers, vtkOpenGLRenderWindow* window,
   vtkRadianceTexture* texture)
 {
+  if (!penumbra::HasOpenGLContext())
+  {
+    vtkErrorMacro("No OpenGL context is current, so there is no bake: the "
+      << window->GetClassName() << " must be initialized and current.");
+    return {};
+  }
   std::vector<glm::ivec2> sizes;
   for (const std::size_t i : receivers)
   {
@@ -159,7 +175,6 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
   }
   this->ReleaseGraphicsResources();
   state->Pop();
-  vtkOpenGLCheckErrorMacro("failed after baking");
   return reports;
 }
 
@@ -232,8 +247,8 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
   {
     job.Target = fine;
     job.Region = { -job.Resolved.Low, job.Plan.Texels };
-    isDone = this->BakeLights(job);
-    texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
+    isDone =
+      this->BakeLights(job) && texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
   }
   fine->ReleaseGraphicsResources();
   return isDone;
@@ -249,8 +264,8 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   for (const std::size_t light : this->Scene->GetLightOrder())
   {
     const double solidAngle = job.Plan.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    int count = hasTolerance ? std::min(FirstBatch, settings.MaximumLightSamples)
-                             : settings.GetSampleCount(solidAngle);
+    int count =
+      hasTolerance ? job.GetBatchEnds(light).front() : settings.GetSampleCount(solidAngle);
     if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
       settings.SolidAnglePerSample > 0.0)
     {
@@ -258,6 +273,11 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     }
     count = job.Wanted.MostSamples > 0 ? std::min(count, job.Wanted.MostSamples) : count;
     const double start = vtkTimerLog::GetUniversalTime();
+    if (hasTolerance && count == 1 && job.Plan.Pairs[light].Needed == penumbra::Effect::Soft &&
+      job.TakeSamples(light, 2).size() > 1)
+    {
+      job.Result.StoppedBy = "MaximumLightSamples"; // one sample has no halves, and no estimate
+    }
     if (!this->BakeLight(job, light, count))
     {
       return false;
@@ -434,12 +454,16 @@ bool vtkRadianceBaker::RefineLights(Job& job)
           : this->BakeLight(job, light, 1));
   }
   scratch->ReleaseGraphicsResources();
+  if (!isDone)
+  {
+    return false;
+  }
   const glm::dvec2 last = FindErrorAndPeak(job.Target->Download(job.Region), settings);
   if (last.x > settings.ErrorTolerance * last.y)
   {
     job.Result.StoppedBy = "MaximumLightSamples";
   }
-  return isDone;
+  return true;
 }
 
 bool vtkRadianceBaker::RefineLight(
@@ -460,16 +484,15 @@ bool vtkRadianceBaker::RefineLight(
   const vtkRadianceTexture::Region scratchRegion = scratch->GetRegions().front();
   scratch->Clear(scratchRegion, penumbra::WholeRectangle(job.Plan.Texels));
   int previous = 0;
-  for (int count = std::min(FirstBatch, settings.MaximumLightSamples);;
-       count = std::min(2 * count, settings.MaximumLightSamples))
+  for (const int count : job.GetBatchEnds(light))
   {
     std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
     const int total = static_cast<int>(samples.size());
-    if (grows)
-    {
-      samples.erase(samples.begin(), samples.begin() + previous);
-    }
-    if (!this->Resolver->SetSamples(samples, grows ? previous : 0) ||
+    const bool isReady = this->Resolver->SetSamples(samples, previous);
+    // Masks of the new samples, in whole layers.
+    constexpr int Layer = vtkVisibilityMask::SamplesPerLayer;
+    samples.erase(samples.begin(), samples.begin() + previous / Layer * Layer);
+    if (!isReady ||
       !this->DrawMasks(job, light, samples, counted, false,
         [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
         { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); }))
@@ -479,11 +502,11 @@ bool vtkRadianceBaker::RefineLight(
     job.Result.Pairs[light].LightSamples = total;
     this->Resolver->ResolveCounts(scratch, scratchRegion, shaded, false);
     const glm::dvec2 error = FindErrorAndPeak(scratch->Download(scratchRegion), settings);
-    if (error.x <= allowed || total >= settings.MaximumLightSamples || total <= previous)
+    if (error.x <= allowed)
     {
       break;
     }
-    previous = total;
+    previous = grows ? count : 0;
   }
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
   for (const penumbra::TexelRectangle& lit : Subtract(job.Resolved, shaded))

@@ -67,6 +67,8 @@ public:
   {
     /// Index into the scene's receivers.
     std::size_t Receiver = 0;
+    /// False, after vtkErrorMacro, if OpenGL refused something: the texels mean nothing.
+    bool IsComplete = false;
     /// Of each light of the scene, in the scene's order.
     std::vector<PairReport> Pairs;
     /// The property that decided how many samples were taken: "LightSamples",
@@ -76,14 +78,12 @@ public:
     std::size_t PeakBytes = 0;
     /// Seconds until OpenGL had finished.
     double Seconds = 0.0;
-    /// False, after vtkErrorMacro, if OpenGL refused something: the texels are not to be used.
-    bool IsComplete = false;
   };
 
   /**
    * Bake the receivers with the given indices into `texture`, whose regions are in their order.
    * `window` must be current. The answer has a report for each; it is empty, after vtkErrorMacro,
-   * if the texture could not be made.
+   * if the texture could not be made or there is no OpenGL context.
    */
   std::vector<Report> Bake(const penumbra::ShadowScene& scene,
     const std::vector<std::size_t>& receivers, vtkOpenGLRenderWindow* window,

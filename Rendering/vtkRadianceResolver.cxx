@@ -93,7 +93,8 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that resolves shadows did not compile.");
+    vtkErrorMacro("The shader that resolves shadows did not compile. There is no bake; update the "
+                  "OpenGL driver.");
     return false;
   }
   const glm::ivec2 strip(resolved.GetSize().x, this->StripRows);
@@ -123,8 +124,9 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady =
-      isReady && this->GetShare(i)->Begin(window, frame, seen, texels, size, options.Translucent);
+    isReady = isReady &&
+      this->GetShare(i)->Begin(
+        window, frame, seen, texels, size, options.InBatches, options.Translucent);
   }
   return isReady;
 }

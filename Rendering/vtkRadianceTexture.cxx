@@ -5,6 +5,7 @@
 #include "vtkRadianceTexture.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 vtkStandardNewMacro(vtkRadianceTexture);
 
@@ -27,6 +29,19 @@ constexpr int GutterTexels = 8;
 constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
 
+/// What graphics processors have offered for decades.
+constexpr int HardwareAnisotropy = 16;
+
+/// Whether OpenGL is known to run on the central processor.
+bool IsSoftwareOpenGL()
+{
+  const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer = text ? text : "";
+  const auto names = { "llvmpipe", "softpipe", "SWR", "SwiftShader", "Software Rasterizer" };
+  return std::any_of(names.begin(), names.end(),
+    [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
+
 vtkSmartPointer<vtkTextureObject> MakeTexture()
 {
   auto texture = vtkSmartPointer<vtkTextureObject>::New();
@@ -35,20 +50,6 @@ vtkSmartPointer<vtkTextureObject> MakeTexture()
   texture->SetMinificationFilter(vtkTextureObject::Nearest);
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   return texture;
-}
-
-/// True if the allocation went through.
-bool AllocateFloats(
-  vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const glm::ivec2& size, int components)
-{
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
-  texture->SetContext(window);
-  return texture->Allocate2D(static_cast<unsigned int>(size.x), static_cast<unsigned int>(size.y),
-           components, VTK_FLOAT) &&
-    glGetError() == GL_NO_ERROR;
 }
 
 } // namespace
@@ -114,8 +115,8 @@ bool vtkRadianceTexture::Allocate(
                          << largestSide << " a side. Use a larger TexelSize.");
     return false;
   }
-  if (!AllocateFloats(this->Irradiance, window, this->Size, 4) ||
-    (withVariance && !AllocateFloats(this->Variance, window, this->Size, 1)))
+  if (!penumbra::AllocateTexture(this->Irradiance, window, this->Size, 4, VTK_FLOAT) ||
+    (withVariance && !penumbra::AllocateTexture(this->Variance, window, this->Size, 1, VTK_FLOAT)))
   {
     vtkErrorMacro("OpenGL refused a texture of " << this->Size.x << " x " << this->Size.y
                                                  << " texels. Use a larger TexelSize.");
@@ -175,15 +176,17 @@ void vtkRadianceTexture::BindAsTarget(
   state->vtkglScissor(origin.x, origin.y, size.x, size.y);
 }
 
-void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
+bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
   const Region& region, const penumbra::TexelRectangle& rectangle, int factor)
 {
   vtkShaderProgram* program =
     penumbra::ReadyFullScreenProgram(this->Window, vtkRadianceDownsampleFS);
   if (!program)
   {
-    vtkErrorMacro("The shader that filters radiance textures did not compile.");
-    return;
+    vtkErrorMacro(
+      "The shader that filters radiance textures did not compile. There is no bake; use "
+      "Supersampling 1, or update the OpenGL driver.");
+    return false;
   }
   this->BindAsTarget(region, rectangle, false);
   fine->Irradiance->Activate();
@@ -197,35 +200,54 @@ void vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
   penumbra::DrawFullScreenTriangle();
   fine->Variance->Deactivate();
   fine->Irradiance->Deactivate();
+  return true;
 }
 
-void vtkRadianceTexture::GenerateMipmaps()
+bool vtkRadianceTexture::GenerateMipmaps()
 {
-  if (!this->HasMipmaps)
-  {
-    this->GenerateMipmaps(this->Irradiance);
-    this->HasMipmaps = true;
-  }
+  this->HasMipmaps = this->HasMipmaps || this->GenerateMipmaps(this->Irradiance);
+  return this->HasMipmaps;
 }
 
-void vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture) const
+void vtkRadianceTexture::SetMaximumAnisotropy(int ratio)
 {
+  this->MaximumAnisotropy = ratio;
+}
+
+bool vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture)
+{
+  penumbra::ForgetOpenGLErrors();
   // On software OpenGL, blending two levels and anisotropy would double a frame's time.
-  texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
-  texture->SetMaximumAnisotropicFiltering(1.0f);
+  const int anisotropy = this->MaximumAnisotropy > 0 ? this->MaximumAnisotropy
+    : IsSoftwareOpenGL()                             ? 1
+                                                     : HardwareAnisotropy;
+  texture->SetMinificationFilter(
+    anisotropy > 1 ? vtkTextureObject::LinearMipmapLinear : vtkTextureObject::LinearMipmapNearest);
+  // An atlas has none: a long footprint would reach past the gutter.
+  texture->SetMaximumAnisotropicFiltering(this->Gutter > 0 ? 1.0f : static_cast<float>(anisotropy));
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
   texture->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
   texture->Activate();
   texture->SendParameters();
   glGenerateMipmap(GL_TEXTURE_2D);
+  const bool isDone = !penumbra::HasOpenGLError();
+  if (!isDone)
+  {
+    // Without levels, a texture that is to have them cannot be read.
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SendParameters();
+    vtkErrorMacro("OpenGL refused the mip levels of a texture of "
+      << this->Size.x << " x " << this->Size.y << " texels. Use a larger TexelSize.");
+  }
   texture->Deactivate();
+  return isDone;
 }
 
 void vtkRadianceTexture::ReleaseMipmaps()
 {
   // OpenGL frees no single levels. Without room for a copy, they stay.
   vtkSmartPointer<vtkTextureObject> copy = MakeTexture();
-  if (!this->HasMipmaps || !AllocateFloats(copy, this->Window, this->Size, 4))
+  if (!this->HasMipmaps || !penumbra::AllocateTexture(copy, this->Window, this->Size, 4, VTK_FLOAT))
   {
     copy->ReleaseGraphicsResources(this->Window);
     return;
@@ -272,6 +294,11 @@ vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
   return texels;
 }
 
+bool vtkRadianceTexture::IsAllocated() const
+{
+  return this->Window && this->Irradiance->GetHandle() != 0;
+}
+
 vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 {
   return this->Irradiance;
@@ -314,6 +341,8 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
 {
   if (this->Window)
   {
+    // VTK remembers what is bound by name, and OpenGL gives names again.
+    this->Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, 0);
     this->Irradiance->ReleaseGraphicsResources(this->Window);
     this->Variance->ReleaseGraphicsResources(this->Window);
     this->Framebuffer->ReleaseGraphicsResources(this->Window);
@@ -330,4 +359,5 @@ void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
   os << indent << "Regions: " << this->Regions.size() << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
 }

@@ -57,6 +57,11 @@ public:
     vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance = true);
 
   /**
+   * Whether there is a texture: not before Allocate(), and not once its window has freed it.
+   */
+  bool IsAllocated() const;
+
+  /**
    * The receivers' places, in the order of their sizes in Allocate().
    */
   const std::vector<Region>& GetRegions() const { return this->Regions; }
@@ -86,15 +91,29 @@ public:
 
   /**
    * Fill a rectangle of a region from a texture that is `factor` times finer, whose own texel (0,
-   * 0) is `fineFirst` of the receiver's finer ones.
+   * 0) is `fineFirst` of the receiver's finer ones. False, after vtkErrorMacro, if OpenGL refuses
+   * the shader.
    */
-  void Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
+  bool Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
     const penumbra::TexelRectangle& rectangle, int factor);
 
+  ///@{
   /**
-   * Make the mip levels of the irradiance, after the last region is filled, to show it.
+   * How many times as long as wide the part of the texture may be that a pixel shows, as floors
+   * have it near the horizon, without being blurred to its length. 1 is the cheapest and takes the
+   * nearest mip level; more blends two levels. Takes effect with the next GenerateMipmaps().
+   * Default is 0: 16 on graphics processors, 1 where OpenGL is software. Levels of an atlas of
+   * several receivers are blended, but not anisotropic.
    */
-  void GenerateMipmaps();
+  void SetMaximumAnisotropy(int ratio);
+  int GetMaximumAnisotropy() const { return this->MaximumAnisotropy; }
+  ///@}
+
+  /**
+   * Make the mip levels of the irradiance, after the last region is filled, to show it. False,
+   * after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool GenerateMipmaps();
 
   /**
    * Free them.
@@ -102,9 +121,10 @@ public:
   void ReleaseMipmaps();
 
   /**
-   * Make the mip levels of a texture with this one's layout, and set its filter.
+   * Make the mip levels of a texture with this one's layout, and set its filter. False, after
+   * vtkErrorMacro, if OpenGL refuses.
    */
-  void GenerateMipmaps(vtkTextureObject* texture) const;
+  bool GenerateMipmaps(vtkTextureObject* texture);
 
   /**
    * The texels of a texture with this layout, with or without mip levels.
@@ -148,6 +168,7 @@ private:
   std::vector<Region> Regions;
   glm::ivec2 Size{ 0 };
   int Gutter = 0;
+  int MaximumAnisotropy = 0;
   bool HasVariance = false;
   bool HasMipmaps = false;
 };

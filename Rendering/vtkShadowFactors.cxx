@@ -5,6 +5,7 @@
 #include "vtkShadowFactors.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "ScopedTexture.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -32,9 +33,6 @@ vtkShadowFactors::vtkShadowFactors()
 {
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->Texture->SetInternalFormat(GL_RGB10_A2);
-  this->Texture->SetFormat(GL_RGBA);
-  this->Texture->SetDataType(GL_UNSIGNED_INT_2_10_10_10_REV);
 }
 
 vtkShadowFactors::~vtkShadowFactors() = default;
@@ -51,24 +49,23 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
   this->ReleaseGraphicsResources();
   this->Window = window;
   const glm::ivec2& size = radiance->GetSize();
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
-  this->Texture->SetContext(window);
-  if (!this->Texture->Allocate2D(static_cast<unsigned int>(size.x),
-        static_cast<unsigned int>(size.y), 4, VTK_UNSIGNED_CHAR) ||
-    glGetError() != GL_NO_ERROR)
+  this->Texture->SetContext(window); // it forgets the format
+  this->Texture->SetInternalFormat(GL_RGB10_A2);
+  this->Texture->SetFormat(GL_RGBA);
+  this->Texture->SetDataType(GL_UNSIGNED_INT_2_10_10_10_REV);
+  if (!penumbra::AllocateTexture(this->Texture, window, size, 4, VTK_UNSIGNED_CHAR))
   {
     vtkErrorMacro("OpenGL refused a texture of " << size.x << " x " << size.y
-                                                 << " texels. Use a larger TexelSize.");
+                                                 << " texels to show shadows. Use a larger "
+                                                    "TexelSize.");
     this->ReleaseGraphicsResources();
     return false;
   }
   vtkShaderProgram* program = penumbra::ReadyFullScreenProgram(window, vtkShadowFactorsFS);
   if (!program)
   {
-    vtkErrorMacro("The shader that makes factors of radiance did not compile.");
+    vtkErrorMacro("The shader that makes factors of radiance did not compile. No shadow is shown; "
+                  "update the OpenGL driver.");
     this->ReleaseGraphicsResources();
     return false;
   }
@@ -88,7 +85,11 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
       penumbra::DrawFullScreenTriangle();
     }
   }
-  radiance->GenerateMipmaps(this->Texture);
+  if (!radiance->GenerateMipmaps(this->Texture))
+  {
+    this->ReleaseGraphicsResources();
+    return false;
+  }
   this->Bytes = BytesPerTexel * radiance->CountTexels(true);
   return true;
 }
@@ -116,6 +117,8 @@ void vtkShadowFactors::ReleaseGraphicsResources()
 {
   if (this->Window)
   {
+    // VTK remembers what is bound by name, and OpenGL gives names again.
+    this->Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, 0);
     this->Texture->ReleaseGraphicsResources(this->Window);
     this->Framebuffer->ReleaseGraphicsResources(this->Window);
   }

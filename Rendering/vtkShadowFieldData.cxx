@@ -9,6 +9,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkStringArray.h"
 
+#include <limits>
+
 vtkStandardNewMacro(vtkShadowFieldData);
 
 namespace
@@ -113,12 +115,20 @@ struct Reader
     }
     return array->GetComponent(0, component);
   }
+  /// What no int holds becomes the least one, which no setting allows but the seed.
+  int GetInt(const char* name)
+  {
+    using Limits = std::numeric_limits<int>;
+    const double value = this->Get(name, 0, 1);
+    return value > Limits::min() && value <= Limits::max() ? static_cast<int>(value)
+                                                           : Limits::min();
+  }
   void operator()(const char* name, double& value) { value = this->Get(name, 0, 1); }
-  void operator()(const char* name, int& value) { value = static_cast<int>(this->Get(name, 0, 1)); }
+  void operator()(const char* name, int& value) { value = this->GetInt(name); }
   void operator()(const char* name, bool& value) { value = this->Get(name, 0, 1) != 0.0; }
   void operator()(const char* name, penumbra::ReceiverSide& value)
   {
-    value = static_cast<penumbra::ReceiverSide>(this->Get(name, 0, 1));
+    value = static_cast<penumbra::ReceiverSide>(this->GetInt(name));
   }
   void operator()(const char* name, penumbra::ProxyPlaneMode& value)
   {
@@ -126,7 +136,7 @@ struct Reader
   }
   void operator()(const char* name, penumbra::LightKind& value)
   {
-    value = static_cast<penumbra::LightKind>(this->Get(name, 0, 1));
+    value = static_cast<penumbra::LightKind>(this->GetInt(name));
   }
   void operator()(const char* name, glm::dvec3& value)
   {

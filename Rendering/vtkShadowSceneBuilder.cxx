@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowSceneBuilder.h"
 
+#include "Coordinates.h"
 #include "PlanarRegions.h"
+#include "PolyDataStructure.h"
 #include "ProxyPlane.h"
 #include "ProxyReceiver.h"
 #include "SurfaceLight.h"
@@ -21,7 +23,6 @@
 #include "vtkSMPTools.h"
 #include "vtkShadowFieldData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStaticPointLocator.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+#include <tuple>
 
 vtkStandardNewMacro(vtkShadowSceneBuilder);
 
@@ -83,9 +85,27 @@ void TransformPoints(vtkPolyData* data, const glm::dmat4& matrix, penumbra::Surf
   surface.Rounding = size * largest * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
 }
 
-bool IsFinite(const glm::dvec3& p)
+/// Of each point, the first one at the same place.
+std::vector<int> MergePoints(const std::vector<glm::dvec3>& points)
 {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  const auto isBefore = [&](int a, int b)
+  {
+    const glm::dvec3 &p = points[static_cast<std::size_t>(a)],
+                     &q = points[static_cast<std::size_t>(b)];
+    return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+  };
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  vtkSMPTools::Sort(order.begin(), order.end(), isBefore);
+  std::vector<int> merged(points.size());
+  int first = 0;
+  for (const int i : order)
+  {
+    const auto at = static_cast<std::size_t>(i);
+    first = points[at] == points[static_cast<std::size_t>(first)] && first < i ? first : i;
+    merged[at] = first;
+  }
+  return merged;
 }
 
 /// The polygons over the surface's points, of which those at the same place become one.
@@ -94,15 +114,11 @@ penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Sur
   penumbra::PolygonMesh mesh;
   mesh.Points = surface.Points;
   mesh.Rounding = glm::length(surface.Rounding);
-  std::vector<vtkIdType> merged(mesh.Points.size());
-  std::iota(merged.begin(), merged.end(), vtkIdType{ 0 });
-  if (!merged.empty() && std::all_of(mesh.Points.begin(), mesh.Points.end(), IsFinite))
+  if (!std::all_of(mesh.Points.begin(), mesh.Points.end(), penumbra::IsInRange))
   {
-    vtkNew<vtkStaticPointLocator> locator;
-    locator->SetDataSet(polygons);
-    locator->BuildLocator();
-    locator->MergePoints(0.0, merged.data());
+    return mesh; // a problem of its own
   }
+  const std::vector<int> merged = MergePoints(mesh.Points);
   vtkNew<vtkIdList> cell;
   for (vtkIdType i = 0; i < polygons->GetNumberOfPolys(); ++i)
   {
@@ -110,7 +126,7 @@ penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Sur
     std::vector<int>& polygon = mesh.Polygons.emplace_back();
     for (vtkIdType j = 0; j < cell->GetNumberOfIds(); ++j)
     {
-      polygon.push_back(static_cast<int>(merged[static_cast<std::size_t>(cell->GetId(j))]));
+      polygon.push_back(merged[static_cast<std::size_t>(cell->GetId(j))]);
     }
   }
   return mesh;
@@ -175,11 +191,11 @@ void Triangulate(vtkPolyData* polygons, penumbra::Surface& surface)
   }
 }
 
-/// Drops polygons with a point that is not finite; the answer is how many there were. They go
+/// Drops polygons with a point out of range; the answer is how many there were. They go
 /// before they are triangulated: VTK may drop them silently.
 vtkIdType DropInfinitePolygons(const penumbra::Surface& surface, vtkPolyData* polygons)
 {
-  if (std::all_of(surface.Points.begin(), surface.Points.end(), IsFinite))
+  if (std::all_of(surface.Points.begin(), surface.Points.end(), penumbra::IsInRange))
   {
     return 0;
   }
@@ -189,7 +205,8 @@ vtkIdType DropInfinitePolygons(const penumbra::Surface& surface, vtkPolyData* po
   {
     polygons->GetPolys()->GetCellAtId(i, cell);
     if (std::all_of(cell->begin(), cell->end(),
-          [&](vtkIdType id) { return IsFinite(surface.Points[static_cast<std::size_t>(id)]); }))
+          [&](vtkIdType id)
+          { return penumbra::IsInRange(surface.Points[static_cast<std::size_t>(id)]); }))
     {
       kept->InsertNextCell(cell);
     }
@@ -210,6 +227,19 @@ std::vector<glm::dvec3> GetVertices(vtkPolyData* data, vtkIdType polygon)
     data->GetPoint(id, &vertex.x);
   }
   return vertices;
+}
+
+/// The radiance of a light's cells is read by cell: what is wrong with it, or nothing.
+std::string FindRadianceArrayProblem(vtkPolyData* data)
+{
+  const char* name = vtkShadowFieldData::GetRadianceArrayName();
+  vtkDataArray* radiance = data->GetCellData()->GetArray(name);
+  if (!radiance || radiance->GetNumberOfTuples() >= data->GetNumberOfCells())
+  {
+    return "";
+  }
+  return std::string(name) + " has " + std::to_string(radiance->GetNumberOfTuples()) +
+    " values; allowed: one for each of the " + std::to_string(data->GetNumberOfCells()) + " cells";
 }
 
 /// The polygons as the cells of a light, with the radiance that their array gives them.
@@ -317,20 +347,39 @@ void vtkShadowSceneBuilder::AddLight(vtkPolyData* data, const penumbra::LightSet
   }
   const penumbra::Light light =
     isSurface ? penumbra::Light(MakeSurfaceLight(data, settings)) : settings.MakeLight();
-  this->Scene.Lights.emplace_back(light->Transform(ToGlm(matrix)));
+  penumbra::Light placed(light->Transform(ToGlm(matrix)));
+  const std::vector<glm::dvec3> hull = placed->GetHull().Points;
+  if (!placed->IsValid() || !std::all_of(hull.begin(), hull.end(), penumbra::IsInRange))
+  {
+    this->ReportError("Light '" + name +
+      "': by its actor's matrix, nothing is left of it, or it is out of range; allowed: a matrix "
+      "that keeps its extent, with " +
+      penumbra::AllowedCoordinates + ". It is left out.");
+    return;
+  }
+  this->Scene.Lights.push_back(std::move(placed));
 }
 
 std::string vtkShadowSceneBuilder::FindSurfaceLightProblem(
   vtkPolyData* data, const penumbra::LightSettings& settings)
 {
-  std::string problem = settings.FindProblem();
+  std::string problem = penumbra::FindStructureProblem(data);
+  if (problem.empty())
+  {
+    problem = FindRadianceArrayProblem(data);
+  }
+  if (problem.empty())
+  {
+    problem = settings.FindProblem();
+  }
   for (vtkIdType i = 0; i < data->GetNumberOfPolys() && problem.empty(); ++i)
   {
     const std::vector<glm::dvec3> vertices = GetVertices(data, i);
-    if (!std::all_of(vertices.begin(), vertices.end(), IsFinite))
+    if (!std::all_of(vertices.begin(), vertices.end(), penumbra::IsInRange))
     {
       problem = "polygon " + std::to_string(i) +
-        " has a coordinate that is not finite; allowed: finite coordinates";
+        " has a coordinate that is not finite or beyond 1e75; allowed: " +
+        penumbra::AllowedCoordinates;
     }
     else if (!penumbra::IsPlanarAndConvex(vertices))
     {
@@ -365,6 +414,12 @@ std::string vtkShadowSceneBuilder::FindSurfaceLightProblem(
 void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   const penumbra::ReceiverSettings* receiver, const std::string& name, std::string problem)
 {
+  const std::string structure = penumbra::FindStructureProblem(data);
+  if (!structure.empty())
+  {
+    this->ReportError("Surface '" + name + "': " + structure + ". It is left out.");
+    return;
+  }
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
   penumbra::Surface surface;
   surface.Transmittance = this->FindTransmittance(data, name);
@@ -381,8 +436,8 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   if (dropped > 0 && problem != penumbra::NotFiniteProblem)
   {
     this->ReportError("Surface '" + name + "': " + std::to_string(dropped) +
-      " polygons have a coordinate that is not finite; allowed: finite coordinates. They are left "
-      "out.");
+      " polygons have a coordinate that is not finite or beyond 1e75; allowed: " +
+      penumbra::AllowedCoordinates + ". They are left out.");
   }
   Triangulate(polygons, surface);
   if (surface.IsTranslucent() && !receiver)
@@ -503,7 +558,11 @@ bool vtkShadowSceneBuilder::IsNew(const std::string& message)
 std::string vtkShadowSceneBuilder::FindReceiverProblem(
   vtkPolyData* data, const penumbra::ReceiverSettings& settings)
 {
-  const std::string problem = settings.FindProblem();
+  std::string problem = penumbra::FindStructureProblem(data);
+  if (problem.empty())
+  {
+    problem = settings.FindProblem();
+  }
   if (!problem.empty())
   {
     return problem;

@@ -4,6 +4,7 @@
 
 #include "vtkSoftShadowPass.h"
 
+#include "FullScreenTriangle.h"
 #include "PlanTable.h"
 #include "ScreenMap.h"
 #include "vtkActor.h"
@@ -57,6 +58,7 @@ struct ShownProp
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
+  bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
   bool IsMatte = false;
 
   std::size_t CountReceivers() const { return this->Baked->GetEntries().size(); }
@@ -100,6 +102,7 @@ double GetLargestFactor(
 void MakeShownTexture(
   ShownProp& shown, const penumbra::ShadowScene& scene, vtkOpenGLRenderWindow* window)
 {
+  shown.WasTried = true;
   vtkOpenGLState* state = window->GetState();
   state->Push();
   vtkRadianceTexture* texture = shown.Baked->GetTexture();
@@ -109,8 +112,7 @@ void MakeShownTexture(
     {
       shown.Factors->ReleaseGraphicsResources();
     }
-    texture->GenerateMipmaps();
-    shown.HasShownTexture = true;
+    shown.HasShownTexture = texture->GenerateMipmaps();
   }
   else
   {
@@ -125,6 +127,17 @@ void MakeShownTexture(
       shown.Factors->Make(window, texture, ambient, GetLargestFactor(scene, ambient));
   }
   state->Pop();
+}
+
+/// Whether OpenGL compiles what the shaders of props with so many receivers get: VTK crashes on
+/// shaders that do not compile.
+bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
+{
+  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
+    std::to_string(receivers) + "\n" + vtkSoftShadowFS +
+    "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
+    "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
+  return penumbra::ReadyFullScreenProgram(window, source.c_str());
 }
 
 /// True if an actor's material has no specular part.
@@ -201,14 +214,15 @@ struct ReceiverUniforms
   std::vector<glm::vec4> Places;
   std::vector<glm::vec3> Ambient, Reflectance;
 
+  /// `inset`: how many texels inside the region's border (u, v) begin and end.
   void Add(const glm::dmat4& map, const penumbra::ReceiverSettings& settings,
-    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize)
+    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize, float inset)
   {
     this->Maps.emplace_back(map);
     this->Ambient.emplace_back(settings.AmbientRadiance);
     this->Reflectance.emplace_back(settings.Reflectance);
-    this->Places.emplace_back(
-      glm::vec2(region.Origin) / textureSize, glm::vec2(region.Size) / textureSize);
+    this->Places.emplace_back((glm::vec2(region.Origin) + inset) / textureSize,
+      (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
   }
 
   void Set(vtkShaderProgram* program, const char* maps)
@@ -234,6 +248,15 @@ struct vtkSoftShadowPass::Internals
   /// While the delegate draws:
   vtkRenderer* Renderer = nullptr;
   int TextureUnit = -1;
+
+  /// What a prop shows; nullptr if that was released since the delegate began.
+  const ShownProp* Find(vtkProp* prop) const
+  {
+    vtkInformation* keys = prop->GetPropertyKeys();
+    const int index = keys && keys->Has(RECEIVER_INDEX()) ? keys->Get(RECEIVER_INDEX()) : -1;
+    const bool isThere = index >= 0 && index < static_cast<int>(this->Shown.size());
+    return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
+  }
 };
 
 vtkSoftShadowPass::vtkSoftShadowPass()
@@ -400,6 +423,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     if (outcome != vtkBakedProp::Outcome::Unchanged)
     {
       shown.HasShownTexture = false;
+      shown.WasTried = false;
     }
     isBaked = isBaked || outcome == vtkBakedProp::Outcome::Baked;
     if (outcome != vtkBakedProp::Outcome::Failed)
@@ -428,6 +452,7 @@ void vtkSoftShadowPass::FinishDrafts()
     {
       shown.Baked->Finish(this->Baker, this->BakeMode == COMPLETE ? 0.0 : std::max(left, Shortest));
       shown.HasShownTexture = false;
+      shown.WasTried = false;
       isBaked = true;
     }
   }
@@ -469,20 +494,37 @@ std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
 
 void vtkSoftShadowPass::ChooseShading()
 {
+  // Props may have been deleted since they were baked.
+  std::vector<ShownProp>& all = this->Impl->Shown;
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](const ShownProp& s) { return !s.Prop; }), all.end());
   for (ShownProp& shown : this->Impl->Shown)
   {
     const int shading = this->GetShadingOf(shown.Prop);
     const bool isMatte = IsMatte(shown.Prop);
     const bool isOther = shading != shown.Shading;
+    vtkRadianceTexture* texture = shown.Baked->GetTexture();
+    if (texture->GetMaximumAnisotropy() != this->MaximumAnisotropy)
+    {
+      texture->SetMaximumAnisotropy(this->MaximumAnisotropy);
+      shown.WasTried = false;
+    }
     if (isOther || isMatte != shown.IsMatte)
     {
       shown.Shading = shading;
       shown.IsMatte = isMatte;
       this->Impl->ShaderTime.Modified();
     }
-    if (shown.Baked->HasTexture() && (isOther || !shown.HasShownTexture))
+    if (shown.Baked->HasTexture() && (isOther || !shown.WasTried))
     {
       MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
+      if (!CompilesShadowCode(shown.CountReceivers(), this->Impl->Window))
+      {
+        vtkErrorMacro("The shader code that shows shadows on "
+          << shown.CountReceivers() << " receivers did not compile. They are drawn without "
+          << "shadows; update the OpenGL driver.");
+        shown.HasShownTexture = false;
+      }
     }
   }
 }
@@ -508,12 +550,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   vtkProp* prop)
 {
   // A uniform that is declared twice does not compile, and VTK crashes on shaders that do not.
-  if (fragmentShader.find("penumbraTexture") != std::string::npos)
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || fragmentShader.find("penumbraTexture") != std::string::npos)
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   std::string defines =
     "#define PENUMBRA_RECEIVERS " + std::to_string(shown.CountReceivers()) + "\n";
   const std::vector<vtkBakedProp::Entry>& entries = shown.Baked->GetEntries();
@@ -558,12 +600,12 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
 bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   vtkAbstractMapper* /*mapper*/, vtkProp* prop, vtkOpenGLVertexArrayObject* /*VAO*/)
 {
-  if (!program->IsUniformUsed("penumbraTexture"))
+  const ShownProp* found = this->Impl->Find(prop);
+  if (!found || !program->IsUniformUsed("penumbraTexture"))
   {
     return true;
   }
-  const auto index = static_cast<std::size_t>(prop->GetPropertyKeys()->Get(RECEIVER_INDEX()));
-  const ShownProp& shown = this->Impl->Shown[index];
+  const ShownProp& shown = *found;
   vtkOpenGLState* state = this->Impl->Window->GetState();
   state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
   vtkRadianceTexture* radiance = shown.Baked->GetTexture();
@@ -588,9 +630,13 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   {
     const vtkBakedProp::Entry& entry = shown.Baked->GetEntries()[i];
     penumbra::Receiver receiver = entry.Settings;
-    receiver.Base = entry.Base;
+    // Alone, it fills its texture, and (u, v) are the texture's; of several, the closest is looked
+    // for, by its own parallelogram.
+    const bool isAlone = shown.CountReceivers() == 1;
+    receiver.Base = isAlone ? entry.Base : receiver.Base;
     uniforms.Add(MakeMap(receiver, fromView, toView, toClip, viewport), receiver.Settings,
-      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()));
+      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()),
+      !isAlone && entry.Vertices > 0 ? 0.5f : 0.0f);
   }
   if (shown.Factors)
   {
@@ -622,7 +668,15 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
   {
     if (index < shown.CountReceivers())
     {
+      if (!this->Impl->Window)
+      {
+        return nullptr; // the texels went with it
+      }
       const auto texels = shown.Baked->Download(this->Impl->Scene, index, this->Impl->Window);
+      if (texels.empty())
+      {
+        return nullptr;
+      }
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);
       array->SetNumberOfTuples(static_cast<vtkIdType>(texels.size()));
@@ -680,6 +734,7 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BakeMode: " << this->BakeMode << "\n";
   os << indent << "BatchSeconds: " << this->BatchSeconds << "\n";
   os << indent << "BakeProgress: " << this->GetBakeProgress() << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";
 }

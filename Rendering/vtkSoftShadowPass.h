@@ -130,6 +130,16 @@ public:
 
   ///@{
   /**
+   * How long a part of a texture a pixel may show, in its widths, without being blurred, 1 to 16:
+   * shadows stay sharp where a floor is seen at a grazing angle. Default is 0: 16 on graphics
+   * processors, and 1 on software OpenGL, whose frames it would make about twice as long.
+   */
+  vtkSetClampMacro(MaximumAnisotropy, int, 0, 16);
+  vtkGetMacro(MaximumAnisotropy, int);
+  ///@}
+
+  ///@{
+  /**
    * Name a prop as a receiver with a shading mode of its own, or take that back. It is written into
    * the prop's property keys, for all passes.
    */
@@ -162,7 +172,7 @@ public:
    * The texels of a receiver as they are shown, i (along its first edge) fastest: three components
    * of irradiance over pi, and what is blocked, in their mean. The window must be current.
    * Receivers are in the order of their props and of the polygons within each. nullptr if there is
-   * no such receiver.
+   * no such receiver, or its texture went with its window.
    */
   vtkSmartPointer<vtkFloatArray> GetTexels(int receiver);
 
@@ -218,6 +228,7 @@ private:
   int BakeMode = COMPLETE;
   double BatchSeconds = 0.1;
   double ReportedProgress = 1.0;
+  int MaximumAnisotropy = 0;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;
   std::unique_ptr<Internals> Impl;

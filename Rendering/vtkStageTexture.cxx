@@ -4,6 +4,7 @@
 
 #include "vtkStageTexture.h"
 
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -31,14 +32,7 @@ bool vtkStageTexture::Allocate(
   }
   this->ReleaseGraphicsResources();
   this->Window = window;
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
-  this->Texture->SetContext(window);
-  if (!this->Texture->Allocate2D(static_cast<unsigned int>(size.x),
-        static_cast<unsigned int>(size.y), components, VTK_FLOAT) ||
-    glGetError() != GL_NO_ERROR)
+  if (!penumbra::AllocateTexture(this->Texture, window, size, components, VTK_FLOAT))
   {
     vtkErrorMacro("OpenGL refused a texture of " << size.x << " x " << size.y
                                                  << " texels. Use a larger TexelSize.");
@@ -115,6 +109,8 @@ void vtkStageTexture::ReleaseGraphicsResources()
 {
   if (this->Window)
   {
+    // VTK remembers what is bound by name, and OpenGL gives names again.
+    this->Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, 0);
     this->Texture->ReleaseGraphicsResources(this->Window);
     this->Framebuffer->ReleaseGraphicsResources(this->Window);
   }

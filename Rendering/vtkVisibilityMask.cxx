@@ -4,10 +4,11 @@
 
 #include "vtkVisibilityMask.h"
 
+#include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
 #include "vtkObjectFactory.h"
 #include "vtkOccluderGeometry.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkVisibilityMaskFS.h"
@@ -78,10 +79,7 @@ bool vtkVisibilityMask::Allocate(
   this->Size = size;
   this->Sets = sets;
   const int layers = static_cast<int>(sets) * ((samples + SamplesPerLayer - 1) / SamplesPerLayer);
-  while (glGetError() != GL_NO_ERROR)
-  {
-    // Errors of others must not be taken for a refusal.
-  }
+  penumbra::ForgetOpenGLErrors();
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
   glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, size.x, size.y, layers, 0, GL_RED_INTEGER,
@@ -91,7 +89,7 @@ bool vtkVisibilityMask::Allocate(
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-  if (glGetError() != GL_NO_ERROR)
+  if (penumbra::HasOpenGLError())
   {
     vtkErrorMacro("OpenGL refused a mask of " << size.x << " x " << size.y << " texels for "
                                               << samples << " samples of " << sets
@@ -110,11 +108,13 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   const glm::ivec2& firstTexel)
 {
   vtkOpenGLState* state = this->Window->GetState();
-  vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(
-    vtkVisibilityMaskVS, vtkVisibilityMaskFS, "");
+  vtkShaderProgram* program =
+    penumbra::ReadyProgram(this->Window, vtkVisibilityMaskVS, vtkVisibilityMaskFS);
   if (!program)
   {
-    vtkErrorMacro("The shader of the visibility masks did not compile.");
+    vtkErrorMacro(
+      "The shader of the visibility masks did not compile. There is no bake; update the "
+      "OpenGL driver.");
     return false;
   }
   const glm::vec2 grid(texels);

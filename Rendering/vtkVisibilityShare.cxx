@@ -5,6 +5,8 @@
 #include "vtkVisibilityShare.h"
 
 #include "FullScreenTriangle.h"
+#include "OpenGLErrors.h"
+#include "PolygonLight.h"
 #include "ReceiverTexels.h"
 #include "ScopedTexture.h"
 #include "vtkObjectFactory.h"
@@ -27,17 +29,16 @@ vtkStandardNewMacro(vtkVisibilityShare);
 namespace
 {
 
-/// The largest power of the samples, by which it is divided: only ratios count, and floats must
-/// hold them.
-double GetLargestPower(
-  const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels)
+/// The radiance times area of a light of cells, by which that of the samples is divided: only
+/// ratios count, and floats must hold them.
+glm::dvec3 GetPower(const penumbra::LightShape& light)
 {
-  double largest = 0.0;
-  for (const penumbra::LightSample& sample : samples)
+  glm::dvec3 power(0.0);
+  for (const penumbra::EmittingPolygon& cell : light.GetPolygons())
   {
-    largest = std::max(largest, glm::dot(channels, sample.Power));
+    power += cell.Radiance * cell.Polygon->GetArea();
   }
-  return largest;
+  return power;
 }
 
 } // namespace
@@ -45,9 +46,20 @@ double GetLargestPower(
 vtkVisibilityShare::vtkVisibilityShare() = default;
 vtkVisibilityShare::~vtkVisibilityShare() = default;
 
+std::vector<int> vtkVisibilityShare::GetBatchEnds(int samples)
+{
+  constexpr int SmallestBatch = 64; // fewer say little of their error
+  std::vector<int> ends{ samples };
+  for (int count = (samples + 1) / 2; count >= SmallestBatch; count = (count + 1) / 2)
+  {
+    ends.insert(ends.begin(), count);
+  }
+  return ends;
+}
+
 bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
   const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
-  bool translucent)
+  bool inBatches, bool translucent)
 {
   this->Window = window;
   this->Frame = frame;
@@ -55,6 +67,7 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
   this->IsTranslucent = translucent;
   this->TranslucentCount = 0;
   this->HasCells = seen.GetEmission() == penumbra::Emission::Cells;
+  this->Power = this->HasCells ? GetPower(seen) : glm::dvec3(0.0);
   std::string source = penumbra::WithReceiverTexels(vtkVisibilityShareFS);
   vtkShaderProgram::Substitute(source, "//Penumbra::Emission::Dec",
     "#define EMISSION " + std::to_string(static_cast<int>(seen.GetEmission())));
@@ -63,13 +76,16 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
-    vtkErrorMacro("The shader that counts visibility masks did not compile.");
+    vtkErrorMacro(
+      "The shader that counts visibility masks did not compile. There is no bake; update "
+      "the OpenGL driver.");
     return false;
   }
   const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
   this->Program->SetUniform3f("lightAxis", &axis.x);
   this->Program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
-  return this->Textures[this->Current]->Allocate(window, size, 2);
+  this->Components = inBatches ? 4 : 2; // with the sums to go on from
+  return this->Textures[this->Current]->Allocate(window, size, this->Components);
 }
 
 bool vtkVisibilityShare::SetSamples(
@@ -78,16 +94,18 @@ bool vtkVisibilityShare::SetSamples(
   this->SampleCount = static_cast<int>(samples.size());
   this->PreviousCount = previousCount;
   std::vector<glm::vec4> places, cells;
-  const double largest = GetLargestPower(samples, channels);
+  const double power = glm::dot(channels, this->Power);
   for (const penumbra::LightSample& sample : samples)
   {
-    places.push_back(sample.IsDirection
-        ? glm::vec4(
-            glm::vec3(this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()), 0.0f)
-        : glm::vec4(glm::vec3(this->Frame.ToMetric(sample.Place)), 1.0f));
+    glm::dvec3 place = sample.IsDirection
+      ? this->Frame.DirectionToMetric(sample.Place) * this->Frame.GetSize()
+      : this->Frame.ToMetric(sample.Place);
+    // What is below the plane is rounding; a weight below 0 would take shares out of [0, 1].
+    place.z = std::max(place.z, 0.0);
+    places.emplace_back(place, sample.IsDirection ? 0.0 : 1.0);
     const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
     cells.emplace_back(
-      glm::vec3(normal), largest > 0.0 ? glm::dot(channels, sample.Power) / largest : 0.0);
+      glm::vec3(normal), power > 0.0 ? glm::dot(channels, sample.Power) / power : 0.0);
   }
   if (!this->UploadBuffer(this->SampleBuffer, this->Samples, places) ||
     (this->HasCells && !this->UploadBuffer(this->CellBuffer, this->Cells, cells)))
@@ -99,7 +117,7 @@ bool vtkVisibilityShare::SetSamples(
   {
     const glm::ivec2 size = this->Textures[this->Current]->GetSize();
     this->Current = 1 - this->Current;
-    return this->Textures[this->Current]->Allocate(this->Window, size, 2);
+    return this->Textures[this->Current]->Allocate(this->Window, size, this->Components);
   }
   return true;
 }
@@ -125,9 +143,10 @@ bool vtkVisibilityShare::SetTransmittances(const std::vector<double>& transmitta
 bool vtkVisibilityShare::UploadBuffer(
   vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values)
 {
-  texture->SetContext(this->Window);
+  penumbra::ForgetOpenGLErrors();
   return buffer->Upload(values.data(), values.size(), vtkOpenGLBufferObject::TextureBuffer) &&
-    texture->CreateTextureBuffer(static_cast<unsigned int>(values.size()), 4, VTK_FLOAT, buffer);
+    !penumbra::HasOpenGLError() &&
+    penumbra::MakeTextureOfBuffer(texture, this->Window, buffer, static_cast<int>(values.size()));
 }
 
 void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskFirstTexel,
@@ -153,8 +172,9 @@ void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskF
 
   program->SetUniform2i("maskFirstTexel", &maskFirstTexel.x);
   program->SetUniformi("sampleCount", this->SampleCount);
-  program->SetUniformi("firstHalfCount", (this->SampleCount + 1) / 2);
+  program->SetUniformi("halvings", static_cast<int>(GetBatchEnds(this->SampleCount).size()));
   program->SetUniformi("previousCount", this->PreviousCount);
+  program->SetUniformi("maskFirstWord", this->PreviousCount / vtkVisibilityMask::SamplesPerLayer);
   penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstTexel);
   this->GetTexture()->BindAsTarget(
     { rectangle.Low - firstTexel, rectangle.High - firstTexel }, false);
@@ -166,7 +186,7 @@ bool vtkVisibilityShare::Extend(
 {
   vtkStageTexture* old = this->Textures[this->Current];
   vtkStageTexture* extended = this->Textures[1 - this->Current];
-  if (!extended->Allocate(this->Window, to.GetSize(), 2))
+  if (!extended->Allocate(this->Window, to.GetSize(), this->Components))
   {
     return false;
   }

@@ -5,9 +5,9 @@
  * @brief the share of a light that each texel of a receiver sees, counted from masks
  *
  * Of one light on one receiver: Begin(), then SetSamples() and Count() for the rows whose masks
- * have been drawn (vtkVisibilityShareFS.glsl). More samples may follow: what they say is combined
- * with what the earlier ones said. Where translucent surfaces weaken the light, samples are weighed
- * by what these let through, by another variant of the shader.
+ * have been drawn (vtkVisibilityShareFS.glsl). More samples may follow: the answer is then, to the
+ * bit, that of all samples at once. Where translucent surfaces weaken the light, samples are
+ * weighed by what these let through, by another variant of the shader.
  */
 #ifndef vtkVisibilityShare_h
 #define vtkVisibilityShare_h
@@ -36,18 +36,26 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
+   * How many samples there are after each of the batches that so many may come in: half of them,
+   * rounded up, before the last one, and so on, but no fewer than 64 if there are as many.
+   */
+  static std::vector<int> GetBatchEnds(int samples);
+
+  /**
    * Take up a light on a receiver of the given texels: `seen` is its part in front of the receiver.
-   * The textures have the given size. With `translucent`, SetTransmittances() will be called.
-   * False, after vtkErrorMacro, if OpenGL refuses.
+   * The textures have the given size: that of all rectangles, if the samples will come in batches.
+   * With `translucent`, SetTransmittances() will be called. False, after vtkErrorMacro, if OpenGL
+   * refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
     const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
-    bool translucent);
+    bool inBatches, bool translucent);
 
   /**
-   * The samples whose masks will come. The first half (the greater, if their number is odd) and the
-   * second must each be spread over the light; if `previousCount` samples were counted before,
-   * those are one half and the new ones the other. Of Emission::Cells, `channels` says which
+   * The samples. The first half (the greater, if their number is odd) and the second must each be
+   * spread over the light. If `previousCount` of them, as GetBatchEnds() has it, were counted
+   * before, masks will come of the others alone, and of so many earlier ones that the first is a
+   * multiple of vtkVisibilityMask::SamplesPerLayer. Of Emission::Cells, `channels` says which
    * components of their power count. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool SetSamples(const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels,
@@ -74,7 +82,7 @@ public:
   bool Extend(const penumbra::TexelRectangle& from, const penumbra::TexelRectangle& to);
 
   /**
-   * In r, the share; in g, half of what the halves differ by.
+   * In r, the share; in g, half of what the halves differ by; in batches, the sums in b and a.
    */
   vtkStageTexture* GetTexture();
 
@@ -106,6 +114,8 @@ private:
   bool HasCells = false;
   bool IsTranslucent = false;
   int TranslucentCount = 0;
+  glm::dvec3 Power{ 0.0 }; ///< of the light's cells
+  int Components = 2;
   int SampleCount = 0;
   int PreviousCount = 0;
   vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer, TransmittanceBuffer;

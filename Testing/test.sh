@@ -30,7 +30,7 @@ run_tests()
   ctest --test-dir "$build" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"
 }
 
-install_packages clang-format libgtest-dev xvfb xauth
+install_packages clang clang-format libclang-rt-dev libgtest-dev xvfb xauth
 check_format
 build_penumbra -DPENUMBRA_BUILD_TESTING=ON ${CI:+-DPENUMBRA_WARNINGS_AS_ERRORS=ON}
 if [ $# -gt 0 ]; then

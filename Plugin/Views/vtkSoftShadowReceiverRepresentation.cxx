@@ -4,6 +4,7 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationRequestKey.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
@@ -14,6 +15,19 @@ vtkStandardNewMacro(vtkSoftShadowReceiverRepresentation);
 
 vtkSoftShadowReceiverRepresentation::vtkSoftShadowReceiverRepresentation() = default;
 vtkSoftShadowReceiverRepresentation::~vtkSoftShadowReceiverRepresentation() = default;
+
+namespace
+{
+
+/// Whether each of several processes draws its own part of the view's data.
+bool IsDistributed(vtkPVRenderView* view)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  return view->GetUseDistributedRenderingForRender() && controller &&
+    controller->GetNumberOfProcesses() > 1;
+}
+
+} // namespace
 
 int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
@@ -30,6 +44,14 @@ int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
     vtkSoftShadowViewPass* pass = view ? vtkSoftShadowViewHook::GetPass(view) : nullptr;
     if (pass)
     {
+      if (!this->HasWarned && IsDistributed(view))
+      {
+        vtkWarningMacro(
+          "Soft Shadow Receiver: several processes draw this view, each the shadows of "
+          "its own part of the data. For all shadows, raise the view's "
+          "RemoteRenderThreshold, or let one process draw.");
+        this->HasWarned = true;
+      }
       pass->PrepareFrame(view, this, this->ProgressiveRefinement);
       vtkSoftShadowPass::Designate(this->GetActor(), this->ShadowShading);
     }

@@ -55,6 +55,7 @@ private:
 
   int ShadowShading = 0;
   bool ProgressiveRefinement = true;
+  bool HasWarned = false; ///< that shadows are missing, once
 };
 
 #endif

@@ -6,9 +6,15 @@
 
 // Counts the masks of one light: the share of its samples that each texel sees, weighted by what each would
 // contribute (Heitz, Hill and McGuire 2018).
-// Output 0: in r the share, in g half of what the two halves of the samples differ by: a standard error. Of
+// Output 0: in x the share, in y half of what the two halves of the samples differ by: a standard error. Of
 // independent samples it would be that of their mean. Halves of a scrambled net, whose errors fall as n^-3/4,
 // are each 2^3/4 times as far out as the whole: it is then 2^1/4 too large, or more (TestErrorEstimate).
+// In z and w the sums of weights that more samples go on from: of those that are seen, and of all; 0 where
+// none is blocked or weakened, or all are blocked.
+//
+// n samples are added up in blocks that end at ceil(n / 2^k): those before ceil(n / 2) are one half, the block
+// after it is the other. That half is all of the samples of the bake with ceil(n / 2) of them, in the same
+// order. So the sums are the same to the bit whether the samples come at once or the blocks come one by one.
 
 //Penumbra::Texel::Dec
 
@@ -26,20 +32,23 @@ uniform ivec2 maskFirstTexel;  // the receiver's texel that is (0, 0) of the mas
 uniform samplerBuffer samples; // xyz: place in the metric frame; w: 0 for a direction, else 1
 uniform samplerBuffer cells;   // of EMISSION_CELLS: xyz: the cell's normal; w: the power of the sample
 uniform int sampleCount;
-uniform int firstHalfCount;    // the samples before this one are a stratified set, and so are the others
+uniform int halvings;          // the first block ends at sampleCount / 2^halvings, rounded up
 uniform vec3 lightAxis;        // in the metric frame
 uniform int lightTwoSided;
 uniform sampler2D previous;    // the answer of earlier samples
-uniform int previousCount;     // how many they were
+uniform int previousCount;     // how many they were: the end of a block
+uniform int maskFirstWord;     // samples from 32 times this one on have masks
 #if TRANSLUCENT
 // The masks of each translucent surface follow those of what is opaque, in as many layers.
 uniform samplerBuffer transmittances; // x: what each lets through
 uniform int translucentCount;
 #endif
 
-uint blockedBits(ivec2 texel, int word)
+// The bits of 32 samples; `earlier` are those of all that have no masks any more.
+uint blockedBits(ivec2 texel, int word, uint earlier)
 {
-  return texelFetch(masks, ivec3(texel - maskFirstTexel, word), 0).r;
+  return word < maskFirstWord ? earlier
+                              : texelFetch(masks, ivec3(texel - maskFirstTexel, word - maskFirstWord), 0).r;
 }
 
 // All bits of the samples that the word holds.
@@ -70,9 +79,11 @@ float sampleWeight(int i, vec3 x)
 }
 
 #if TRANSLUCENT
+// Of samples that have no masks any more, none is weakened: their sums are known, or none reaches the texel.
 uint translucentBits(ivec2 texel, int surface, int word)
 {
-  return blockedBits(texel, (surface + 1) * ((sampleCount + 31) >> 5) + word);
+  int layers = ((sampleCount + 31) >> 5) - maskFirstWord;
+  return word < maskFirstWord ? 0u : blockedBits(texel, (surface + 1) * layers + word, 0u);
 }
 
 // The bits of the samples that any translucent surface weakens.
@@ -127,13 +138,13 @@ vec2 sumWord(uint blocked, int begin, int end, vec3 x)
 }
 
 // The same in any range. Sums of words go into the total, so that rounding grows with n / 32 and not with n.
-vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x)
+vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x, uint earlier)
 {
   vec2 total = vec2(0.0);
   for (int i = begin; i < end;)
   {
     int stop = min(end, (i | 31) + 1);
-    uint blocked = blockedBits(texel, i >> 5) >> uint(i & 31);
+    uint blocked = blockedBits(texel, i >> 5, earlier) >> uint(i & 31);
 #if TRANSLUCENT
     total += weakenedBits(texel, i >> 5) != 0u ? sumWeakenedWord(blocked, i, stop, texel, x)
                                                : sumWord(blocked, i, stop, x);
@@ -145,14 +156,17 @@ vec2 sumWeights(int begin, int end, ivec2 texel, vec3 x)
   return total;
 }
 
-// The share of these samples that is seen from x, and half the difference of the halves.
-vec2 seenShare(ivec2 texel, vec3 x)
+// What all samples say, as the output has it.
+vec4 countSamples(ivec2 texel, vec3 x)
 {
-  bool someBlocked = false; // or weakened
-  bool someSeen = false;
-  for (int word = 0; 32 * word < sampleCount; ++word)
+  vec4 before = previousCount > 0 ? texelFetch(previous, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
+  bool isMixed = before.w > 0.0;
+  bool someBlocked = previousCount > 0 && (isMixed || before.x < 1.0); // or weakened
+  bool someSeen = previousCount > 0 && (isMixed || before.x > 0.0);
+  uint earlier = someSeen ? 0u : 0xffffffffu; // unless they are mixed: their sums are known
+  for (int word = maskFirstWord; 32 * word < sampleCount; ++word)
   {
-    uint bits = blockedBits(texel, word);
+    uint bits = blockedBits(texel, word, earlier);
     someBlocked = someBlocked || bits != 0u;
 #if TRANSLUCENT
     someBlocked = someBlocked || weakenedBits(texel, word) != 0u;
@@ -161,25 +175,30 @@ vec2 seenShare(ivec2 texel, vec3 x)
   }
   if (!someBlocked || !someSeen)
   {
-    return vec2(someSeen ? 1.0 : 0.0, 0.0);
+    return vec4(someSeen ? 1.0 : 0.0, 0.0, 0.0, 0.0);
   }
-  vec2 a = sumWeights(0, firstHalfCount, texel, x);
-  vec2 b = sumWeights(firstHalfCount, sampleCount, texel, x);
-  vec2 both = a + b;
+  int begin = isMixed ? previousCount : 0;
+  vec2 both = isMixed ? before.zw : vec2(0.0);
+  vec2 a = both;
+  vec2 b = vec2(0.0);
+  for (int k = halvings; k >= 0; --k)
+  {
+    int end = (sampleCount + (1 << k) - 1) >> k;
+    if (end > begin)
+    {
+      a = both;
+      b = sumWeights(begin, end, texel, x, earlier);
+      both = a + b;
+      begin = end;
+    }
+  }
   float share = both.y > 0.0 ? both.x / both.y : 1.0;
-  return vec2(share, a.y > 0.0 && b.y > 0.0 ? 0.5 * (a.x / a.y - b.x / b.y) : 0.0);
+  float difference = a.y > 0.0 && b.y > 0.0 ? 0.5 * (a.x / a.y - b.x / b.y) : 0.0;
+  return vec4(share, difference, both);
 }
 
 void main()
 {
   ivec2 texel = ivec2(gl_FragCoord.xy) + firstTexel;
-  vec2 seen = seenShare(texel, texelPlace(texel));
-  if (previousCount > 0)
-  {
-    // Earlier samples are one half, these the other.
-    float before = texelFetch(previous, ivec2(gl_FragCoord.xy), 0).r;
-    float part = float(sampleCount) / float(previousCount + sampleCount);
-    seen = vec2(mix(before, seen.r, part), 0.5 * (before - seen.r));
-  }
-  gl_FragData[0] = vec4(seen, 0.0, 0.0);
+  gl_FragData[0] = countSamples(texel, texelPlace(texel));
 }

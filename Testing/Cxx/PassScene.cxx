@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PassScene.h"
 
-#include "vtkProperty.h"
+#include "vtkCamera.h"
 #include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
 
 PassScene::PassScene(int width, int height)
 {
@@ -52,14 +54,47 @@ vtkSmartPointer<vtkActor> PassScene::AddLight(
 
 PassScene::Pixels PassScene::Render()
 {
-  this->Window->Render();
-  const int* size = this->Window->GetSize();
+  return DrawFrame(this->Window);
+}
+
+FloorScene::FloorScene()
+{
+  this->Sphere->SetRadius(0.5);
+  this->Sphere->SetCenter(0.0, 0.0, 0.8);
+  this->Sphere->SetThetaResolution(24);
+  this->Sphere->SetPhiResolution(24);
+  this->Receiver->SetTexelSize(4.0 / 64);
+  this->FloorActor = this->AddReceiver({ -2, -2, 0 }, { 2, -2, 0 }, { -2, 2, 0 }, this->Receiver);
+  this->LightActor =
+    this->AddLight(this->Light, { -0.5, 0.5, 3.0 }, { 0.5, 0.5, 3.0 }, { -0.5, -0.5, 3.0 });
+  this->SphereActor = this->Add(this->Sphere);
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  camera->SetPosition(3.0, -6.0, 4.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.3);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  this->Renderer->ResetCameraClippingRange();
+}
+
+PassScene::Pixels DrawFrame(vtkRenderWindow* window)
+{
+  window->Render();
+  const int* size = window->GetSize();
   vtkNew<vtkUnsignedCharArray> array;
-  this->Window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, array);
-  Pixels pixels(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, array);
+  PassScene::Pixels pixels(static_cast<std::size_t>(array->GetNumberOfTuples()));
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     array->GetTypedTuple(i, pixels[static_cast<std::size_t>(i)].data());
   }
   return pixels;
+}
+
+std::size_t CountDifferences(const PassScene::Pixels& a, const PassScene::Pixels& b)
+{
+  std::size_t count = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
+  for (std::size_t i = 0; count < a.size() && i < a.size(); ++i)
+  {
+    count += a[i] != b[i] ? 1 : 0;
+  }
+  return count;
 }

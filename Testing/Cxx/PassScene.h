@@ -17,6 +17,7 @@
 #include "vtkShadowReceiver.h"
 #include "vtkSmartPointer.h"
 #include "vtkSoftShadowPass.h"
+#include "vtkSphereSource.h"
 
 #include <array>
 #include <vector>
@@ -49,5 +50,23 @@ public:
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkSoftShadowPass> Pass;
 };
+
+/// A floor with a sphere over it, under a square light.
+class FloorScene : public PassScene
+{
+public:
+  FloorScene();
+
+  vtkNew<vtkSphereSource> Sphere;
+  vtkNew<vtkShadowReceiver> Receiver;
+  vtkNew<vtkAreaLightSource> Light;
+  vtkSmartPointer<vtkActor> FloorActor, LightActor, SphereActor;
+};
+
+/// Draws a frame of a window and reads it.
+PassScene::Pixels DrawFrame(vtkRenderWindow* window);
+
+/// How many pixels differ in any component.
+std::size_t CountDifferences(const PassScene::Pixels& a, const PassScene::Pixels& b);
 
 #endif

@@ -140,7 +140,7 @@ bool SampledVisibility::IsBlocked(const Vec3& x, const Vec3& sample, const Trian
 }
 
 SeenShare SampledVisibility::GetShare(
-  int i, int j, const std::function<long double(const Vec3&)>& weight) const
+  int i, int j, const std::function<long double(std::size_t, const Vec3&)>& weight) const
 {
   const Vec3 centre = this->Texels.GetCentre(i, j);
   const long double x = i + 0.5L, y = j + 0.5L;
@@ -172,7 +172,7 @@ SeenShare SampledVisibility::GetShare(
   for (std::size_t s = 0; s < this->Samples.size(); ++s)
   {
     const Vec3& sample = this->Samples[s];
-    const long double w = weight(this->AreDirections ? sample : sample - centre);
+    const long double w = weight(s, this->AreDirections ? sample : sample - centre);
     bool isBlocked = false, isOpen = false;
     for (const Image& image : this->Images[s])
     {

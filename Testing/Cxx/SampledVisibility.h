@@ -60,8 +60,10 @@ public:
   SampledVisibility(const TexelGrid& texels, const std::vector<Triangle>& occluders,
     const std::vector<Vec3>& samples, bool areDirections, const RayTolerance& tolerance);
 
-  /** The weight of a sample is a function of the vector from the texel's centre to it. */
-  SeenShare GetShare(int i, int j, const std::function<long double(const Vec3&)>& weight) const;
+  /** The weight of a sample is a function of its index and of the vector from the texel's centre.
+   */
+  SeenShare GetShare(
+    int i, int j, const std::function<long double(std::size_t, const Vec3&)>& weight) const;
 
 private:
   /** A corner of a triangle's image: in texels, and how far edges that end there may be off. */

@@ -28,11 +28,14 @@ struct CountedLight
   oracle::Vec3 Normal, LightNormal;
 };
 
+} // namespace
+
 /// OpenGL has at least 4 bits below a texel, Mesa's software renderer 8. Vertices, and those that
 /// clipping makes, are snapped to them by up to half a step in x and y: the edges between them move
 /// by less than two steps. Occluders that reach further than 64 receivers are clipped in double to
 /// what lies between receiver and light: the light's distance in units of the receiver's edges.
-oracle::RayTolerance GetTolerance(const penumbra::Parallelogram& base, const penumbra::Light& light)
+oracle::RayTolerance GetRayTolerance(
+  const penumbra::Parallelogram& base, const penumbra::Light& light)
 {
   const double area = glm::length(glm::cross(base.EdgeX, base.EdgeY));
   double distance = 0.0;
@@ -43,6 +46,9 @@ oracle::RayTolerance GetTolerance(const penumbra::Parallelogram& base, const pen
   return { 2.0L / 256, 0x1p-24L, std::max(64.0, distance * glm::length(base.EdgeY) / area),
     std::max(64.0, distance * glm::length(base.EdgeX) / area) };
 }
+
+namespace
+{
 
 CountedLight CountLight(
   const TestScene& scene, const oracle::TexelGrid& grid, const penumbra::Light& light)
@@ -69,7 +75,7 @@ CountedLight CountLight(
   }
   exact.TwoSided = light->TwoSided;
   exact.Radiance = { light->Radiance.x, light->Radiance.y, light->Radiance.z };
-  return { exact, { grid, scene.Occluders, samples, false, GetTolerance(scene.Base, light) },
+  return { exact, { grid, scene.Occluders, samples, false, GetRayTolerance(scene.Base, light) },
     ToOracle(normal), ToOracle(light->GetAxis()) };
 }
 
@@ -130,7 +136,7 @@ CountError CompareWithCount(const TestScene& scene, penumbra::ShadowScene made)
       {
         const long double form = oracle::FormFactor(x, light.Normal, light.Exact);
         const oracle::SeenShare share = light.Visibility.GetShare(i, j,
-          [&](const oracle::Vec3& d)
+          [&](std::size_t, const oracle::Vec3& d)
           {
             const long double r2 = Dot(d, d);
             return Dot(light.Normal, d) * std::abs(Dot(light.LightNormal, d)) / (r2 * r2);

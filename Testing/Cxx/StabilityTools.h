@@ -8,6 +8,7 @@
 #ifndef StabilityTools_h
 #define StabilityTools_h
 
+#include "SampledVisibility.h"
 #include "TestScenes.h"
 
 #include <string>
@@ -23,6 +24,10 @@ constexpr double FloatRounding = 0x1p-24;
  * roundings, added up in n / 32 steps, and their quotient: 2 (48 + n / 32).
  */
 double GetRadianceBound(int samples);
+
+/// How far rays must pass an edge on the way to a light for a rasteriser to be sure of them.
+oracle::RayTolerance GetRayTolerance(
+  const penumbra::Parallelogram& base, const penumbra::Light& light);
 
 /// What a bake may be off by.
 struct CountError

@@ -3,6 +3,7 @@
 
 // What makes no sense gets one clear message, and the rest of the scene is drawn.
 
+#include "Messages.h"
 #include "PassScene.h"
 
 #include "vtkAreaLightFromSurface.h"
@@ -12,12 +13,10 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkOutputWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRadianceMap.h"
 #include "vtkShadowFieldData.h"
 #include "vtkSphereSource.h"
-#include "vtkStringOutputWindow.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTrivialProducer.h"
 
@@ -33,44 +32,6 @@ namespace
 {
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
-/// Collects the messages that VTK prints while it lives.
-class Messages
-{
-public:
-  Messages()
-    : Before(vtkOutputWindow::GetInstance())
-  {
-    vtkOutputWindow::SetInstance(this->Window);
-  }
-  ~Messages() { vtkOutputWindow::SetInstance(this->Before); }
-
-  std::string GetText() const { return this->Window->GetOutput(); }
-  int Count(const std::string& what) const
-  {
-    int count = 0;
-    const std::string text = this->GetText();
-    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-    {
-      ++count;
-    }
-    return count;
-  }
-  /// One message, which has all of these words.
-  void ExpectOne(const std::vector<std::string>& words) const
-  {
-    EXPECT_EQ(this->Count("ERROR:") + this->Count("Warning:"), 1) << this->GetText();
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(this->GetText().find(word), std::string::npos)
-        << "no '" << word << "' in: " << this->GetText();
-    }
-  }
-
-private:
-  vtkSmartPointer<vtkOutputWindow> Before;
-  vtkNew<vtkStringOutputWindow> Window;
-};
 
 /// A RadianceMap of a floor under a light, to which tests add what makes no sense.
 struct FloorMap
@@ -159,6 +120,17 @@ TEST(BadInput, EmptyReceiver)
   messages.ExpectOne({ "ShadowReceiver", "no polygon", "allowed" });
 }
 
+// In a parallel run, a process may hold none of the receiver, which is nothing wrong.
+TEST(BadInput, EmptyPieceOfAReceiver)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkShadowReceiver> receiver;
+  receiver->SetInputData(empty);
+  const Messages messages;
+  receiver->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(messages.GetText(), "");
+}
+
 TEST(BadInput, NaNInReceiver)
 {
   vtkNew<vtkShadowReceiver> receiver;
@@ -191,6 +163,45 @@ TEST(BadInput, NaNInDataOfAMap)
   const Messages messages;
   EXPECT_EQ(floor.CountBlocks(), 1u);
   messages.ExpectOne({ "Receivers[1]", "not finite", "allowed" });
+}
+
+// VTK takes it for granted that cells name points, and crashes.
+TEST(BadInput, CellsThatNameNoPoints)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> producer;
+  const vtkSmartPointer<vtkPolyData> data = MakeTriangle(0.0);
+  data->GetPolys()->InsertNextCell({ 0, 1, 3 });
+  producer->SetOutput(data);
+  vtkNew<vtkShadowReceiver> receiver;
+  vtkNew<vtkAreaLightFromSurface> light;
+  for (vtkAlgorithm* filter : std::initializer_list<vtkAlgorithm*>{ receiver, light })
+  {
+    filter->SetInputConnection(producer->GetOutputPort());
+    const Messages messages;
+    filter->Update();
+    messages.ExpectOne({ "polygon 1 names point 3; allowed: 0 to 2" });
+    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+  }
+  floor.Map->AddInputConnection(vtkRadianceMap::RECEIVERS, receiver->GetOutputPort());
+  floor.Map->AddInputConnection(vtkRadianceMap::LIGHTS, light->GetOutputPort());
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, producer->GetOutputPort());
+  const Messages messages;
+  floor.ExpectFinite();
+  messages.ExpectOne({ "Occluders[0]", "polygon 1 names point 3; allowed: 0 to 2" });
+}
+
+// Finite, and yet too large for the square of an area.
+TEST(BadInput, HugeCoordinates)
+{
+  for (const double x : { 1e76, -1e200 })
+  {
+    vtkNew<vtkShadowReceiver> receiver;
+    receiver->SetInputData(MakeTriangle(x));
+    const Messages messages;
+    receiver->Update();
+    messages.ExpectOne({ "ShadowReceiver", "beyond 1e75", "allowed" });
+  }
 }
 
 // What was refused for another reason, and has a NaN since, has two things to be said of it.
@@ -446,6 +457,27 @@ TEST(BadInput, RadianceArrayOfTwoComponents)
   PaneLight light;
   light.SetArray({ 1.0, 2.0 });
   light.ExpectRefused({ "AreaLightFromSurface", "'Glow' has 2 components", "allowed: 1 or 3" });
+}
+
+TEST(BadInput, CellArrayOfAnotherSize)
+{
+  PaneLight light;
+  light.SetArray({ 1.0, 1.0, 1.0 });
+  light.Pane->GetCellData()->GetArray("Glow")->InsertNextTuple3(1.0, 1.0, 1.0);
+  light.ExpectRefused({ "AreaLightFromSurface", "'Glow' has 2 values", "each of the 1 cells" });
+}
+
+// A refused surface emits nothing, even if its input was a light before.
+TEST(BadInput, RefusedSurfaceOfALight)
+{
+  FloorMap floor;
+  vtkNew<vtkAreaLightFromSurface> surface;
+  surface->SetInputConnection(floor.Light->GetOutputPort());
+  surface->SetRadiance(-1.0, 1.0, 1.0);
+  const Messages messages;
+  surface->Update();
+  messages.ExpectOne({ "AreaLightFromSurface", "Radiance is (-1, " });
+  EXPECT_FALSE(vtkShadowFieldData::ReadLight(surface->GetOutput()->GetFieldData()));
 }
 
 TEST(BadInput, RadianceArrayOutOfRange)

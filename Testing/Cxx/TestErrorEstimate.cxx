@@ -186,6 +186,18 @@ TEST(ErrorTolerance, SaysWhereSamplesRanOut)
   EXPECT_GT(errors.Estimated, settings.ErrorTolerance);
 }
 
+// One sample of a light that has a size tells nothing of its error: no accuracy may be claimed.
+TEST(ErrorTolerance, IsNotClaimedByOneSample)
+{
+  penumbra::ReceiverSettings settings;
+  settings.ErrorTolerance = 1e-3;
+  settings.MaximumLightSamples = 1;
+  const Errors errors = MeasureErrors(1, settings);
+  EXPECT_EQ(errors.GetSamples(), 1);
+  EXPECT_GT(errors.Actual, settings.ErrorTolerance);
+  EXPECT_EQ(errors.Report.StoppedBy, "MaximumLightSamples");
+}
+
 // The fine texels' variance arrives in the coarse ones, and their refinement ends.
 TEST(ErrorTolerance, IsKeptBySupersampledTexels)
 {

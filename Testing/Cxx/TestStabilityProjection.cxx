@@ -4,7 +4,10 @@
 // Triangles that are hard to project or to draw, and sums of very many or very different numbers.
 
 #include "RandomGeometry.h"
+#include "SamplingPattern.h"
+#include "SegmentLight.h"
 #include "StabilityTools.h"
+#include "SurfaceLight.h"
 
 #include "vtkAreaLightSource.h"
 #include "vtkCellData.h"
@@ -46,6 +49,40 @@ double CountDifferences(const Texels& a, const Texels& b)
     count += a[i] != b.at(i) ? 1.0 : 0.0;
   }
   return count;
+}
+
+/// A lamp whose shadows have penumbras of all widths, by a box and a needle.
+TestScene MakeBatchScene()
+{
+  TestScene scene = MakeLampScene();
+  scene.AddBox({ 0.3, -0.4, 0.3 }, { 0.8, 0.5, 0.7 });
+  scene.AddPlate({ -1.9, 0.9, 0.5 }, { 1.5, 0.3, 0.2 }, { 0.0, 0.01, 0.0 });
+  scene.Settings.Reconstruction = false;
+  return scene;
+}
+
+/// Bakes with ErrorTolerance, by default one that is never met, and with as many samples at once.
+void ExpectBatchesChangeNothing(TestScene scene, int most)
+{
+  if (scene.Settings.ErrorTolerance == 0.0)
+  {
+    scene.Settings.ErrorTolerance = 1e-12;
+  }
+  scene.Settings.MaximumLightSamples = most;
+  const TestBake inBatches = BakeReceiver(scene.MakeScene());
+  const std::vector<int>& counts = inBatches.Reports.front().LightSamples;
+  scene.Settings.ErrorTolerance = 0.0;
+  scene.Settings.LightSamples = *std::max_element(counts.begin(), counts.end());
+  const TestBake once = BakeReceiver(scene.MakeScene());
+  ASSERT_EQ(once.Reports.front().LightSamples, counts);
+  double differences = CountDifferences(once.Texels.Irradiance, inBatches.Texels.Irradiance);
+  for (std::size_t i = 0; i < once.Texels.Variance.size(); ++i)
+  {
+    differences += once.Texels.Variance[i] != inBatches.Texels.Variance.at(i) ? 1.0 : 0.0;
+  }
+  ExpectWithin("texels that batches change, " + std::to_string(scene.Settings.LightSamples) +
+      " samples by pattern " + std::to_string(scene.Settings.SamplingPattern),
+    differences, 0.0);
 }
 
 } // namespace
@@ -286,6 +323,37 @@ TEST(StabilityAccumulation, RadianceOverTwentyFourPowersOfTen)
   ExpectWithin("texels that other lights change", differences, 0.0);
 }
 
+// Lights of one hue, 24 powers of ten apart: where the bright one is hidden, the dim one keeps all
+// its digits.
+TEST(StabilityAccumulation, DimLightInTheUmbraOfABrightOne)
+{
+  TestScene dim = MakeLampScene(), both = MakeLampScene();
+  dim.Lights.clear();
+  both.Lights.clear();
+  both.AddLight({ -1.5, 0.3, 2.0 }, { -0.9, 0.3, 2.0 }, { -1.5, -0.3, 2.0 }, glm::dvec3(1e12));
+  for (TestScene* scene : { &dim, &both })
+  {
+    scene->AddLight({ 0.9, 0.5, 2.0 }, { 1.9, 0.5, 2.0 }, { 0.9, -0.5, 2.0 }, glm::dvec3(1e-12));
+    scene->AddPlate({ -0.2, -0.9, 0.0 }, { 0.0, 1.8, 0.0 }, { 0.0, 0.0, 1.2 });
+  }
+  dim.Name = "the dim light alone";
+  ExpectExactCount(dim);
+  both.Name = "the dim light and the bright one";
+  ExpectExactCount(both);
+  const Texels alone = BakeTexels(dim), together = BakeTexels(both);
+  double hidden = 0.0, differences = 0.0;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+  {
+    // A form factor is at most 1; one sample of the bright light gives more than that of the dim
+    // one.
+    const bool isHidden = together[i].r <= 1e-12f;
+    hidden += isHidden ? 1.0 : 0.0;
+    differences += isHidden && glm::vec3(alone[i]) != glm::vec3(together[i]) ? 1.0 : 0.0;
+  }
+  EXPECT_GT(hidden, 10.0);
+  ExpectWithin("texels of the umbra that the bright light changes", differences, 0.0);
+}
+
 TEST(StabilityAccumulation, TwoHundredLights)
 {
   RandomGeometry random(200);
@@ -306,31 +374,77 @@ TEST(StabilityAccumulation, TwoHundredLights)
   ExpectWithin(scene.Name, error.Largest, GetRadianceBound(16) + 200.0 * FloatRounding);
 }
 
-// A light that is refined in batches takes the mean of their ratios, each over its own samples'
-// weights, which is another estimate than the ratio over all samples. They differ by the mean over
-// batches of how far the ratio is from the mean one, times how far the mean weight is from the
-// light's. Both are below twice the discrepancy times the variation: batches have at least N = 64
-// samples of a (0,2) sequence, whose discrepancy is at most (log2(N) / 2 + 3/2) / N; what is seen
-// varies by 1, and weights by less than 1 of their mean.
-TEST(StabilityAccumulation, BatchesOfSamplesAgreeAsEstimates)
+// With a tolerance that cannot be met, samples come in batches until there are as many as are
+// allowed; with one that can, until it is met. The texels and their errors are those of as many
+// samples at once. Numbers that are no multiples of 32 end a batch within a layer of masks.
+TEST(StabilityAccumulation, BatchesOfSamplesChangeNoBit)
 {
-  TestScene scene = MakeLampScene();
-  scene.AddBox({ 0.3, -0.4, 0.3 }, { 0.8, 0.5, 0.7 });
-  scene.Settings.LightSamples = 1024;
-  const Texels once = BakeTexels(scene);
-  scene.Settings.ErrorTolerance = 1e-9;
-  scene.Settings.MaximumLightSamples = 1024;
-  const Texels inBatches = BakeTexels(scene);
-  double largest = 0.0, peak = 0.0, decided = 0.0;
-  for (std::size_t i = 0; i < once.size(); ++i)
+  TestScene scene = MakeBatchScene();
+  for (const int samples : { 1, 50, 100, 127, 128, 129, 333, 1000, 1024, 4096 })
   {
-    largest = std::max(largest, std::abs(static_cast<double>(once[i].r - inBatches[i].r)));
-    peak = std::max(peak, static_cast<double>(once[i].r));
-    const bool isPartial = once[i].r > 0.0f && once[i].a > 0.0f;
-    decided += !isPartial && once[i] != inBatches[i] ? 1.0 : 0.0;
+    ExpectBatchesChangeNothing(scene, samples);
   }
-  ExpectWithin("batches of samples", largest / peak, std::pow(2.0 * 4.5 / 64.0, 2.0));
-  ExpectWithin("texels wholly lit or dark that batches change", decided, 0.0);
+  for (const double tolerance : { 0.005, 0.001, 0.0002 })
+  {
+    scene.Settings.ErrorTolerance = tolerance;
+    ExpectBatchesChangeNothing(scene, 4096);
+  }
+}
+
+TEST(StabilityAccumulation, BatchesChangeNoBitOfAnyPattern)
+{
+  TestScene scene = MakeBatchScene();
+  for (std::size_t i = 0; i < penumbra::GetSamplingPatterns().size(); ++i)
+  {
+    scene.Settings.SamplingPattern = static_cast<int>(i);
+    ExpectBatchesChangeNothing(scene, 400);
+  }
+}
+
+TEST(StabilityAccumulation, BatchesChangeNoBitOfFilteredTexels)
+{
+  TestScene scene = MakeBatchScene();
+  scene.Settings.Supersampling = 2;
+  ExpectBatchesChangeNothing(scene, 500);
+  scene.Settings.Reconstruction = true;
+  ExpectBatchesChangeNothing(scene, 500);
+}
+
+// A light of cells, by how they share its power: red, green and blue have shares of their own.
+TEST(StabilityAccumulation, BatchesChangeNoBitOfSeveralLights)
+{
+  TestScene scene = MakeBatchScene();
+  std::vector<penumbra::PolygonLight> cells;
+  for (const glm::dvec3 hue : { glm::dvec3(3.0, 0.0, 1e-6), glm::dvec3(0.0, 0.7, 0.1) })
+  {
+    const double x = cells.empty() ? -1.0 : 0.3;
+    penumbra::PolygonLight cell = penumbra::PolygonLight::Parallelogram(
+      { x, 0.5, 2.5 }, { x + 0.7, 0.5, 2.4 }, { x, 0.1, 2.5 });
+    cell.Radiance = hue;
+    cells.push_back(cell);
+  }
+  scene.Lights.push_back(penumbra::SurfaceLight(cells));
+  scene.Lights.push_back(penumbra::SegmentLight({ -1.0, -0.5, 1.0 }, { 1.0, 0.2, 1.4 }));
+  ExpectBatchesChangeNothing(scene, 700);
+}
+
+// Texels that the first batch sees all of the light from, or nothing, and a later one does not, are
+// among those that must not change.
+TEST(StabilityAccumulation, LaterBatchesMeetWhatTheFirstOneMissed)
+{
+  TestScene scene = MakeBatchScene();
+  const auto countMixed = [&](int samples)
+  {
+    scene.Settings.LightSamples = samples;
+    const Texels texels = BakeTexels(scene);
+    return std::count_if(
+      texels.begin(), texels.end(), [](const glm::vec4& t) { return t.r > 0.0f && t.a > 0.0f; });
+  };
+  const auto first = countMixed(64);
+  const auto last = countMixed(1024);
+  EXPECT_GT(first, 0);
+  EXPECT_GT(last, first + 10);
+  ExpectBatchesChangeNothing(scene, 1024);
 }
 
 // Bands of rows, each with masks of its own, against all at once.
