@@ -364,6 +364,29 @@ TEST(TranslucentOccluders, MeetAnErrorTolerance)
   EXPECT_LE(Compare(bake, WeakenAll(panes, Red, Grey, GetExact)).RootMeanSquare, 1e-3);
 }
 
+// With a tolerance that cannot be met, samples come in batches until there are as many as are
+// allowed. The sums go on where a texel is weakened, so the answer is that of all samples at once.
+// Numbers that are no multiples of 32 end a batch within a layer of masks.
+TEST(TranslucentOccluders, AreTheSameInBatchesOfSamples)
+{
+  for (const int samples : { 130, 333, 1024 })
+  {
+    Panes once, inBatches;
+    once.Scene.Settings.LightSamples = samples;
+    inBatches.Scene.Settings.ErrorTolerance = 1e-9;
+    inBatches.Scene.Settings.MaximumLightSamples = samples;
+    for (const auto& [first, second] : { std::make_pair(Red, Grey), std::make_pair(Grey, Opaque) })
+    {
+      const TestBake expected = BakeReceiver(once.Make(first, second));
+      const TestBake bake = BakeReceiver(inBatches.Make(first, second));
+      EXPECT_EQ(GetPair(bake).LightSamples, samples);
+      EXPECT_EQ(bake.Reports.front().StoppedBy, "MaximumLightSamples");
+      EXPECT_EQ(bake.Texels.Irradiance, expected.Texels.Irradiance) << samples << " samples";
+      EXPECT_EQ(bake.Texels.Variance, expected.Texels.Variance) << samples << " samples";
+    }
+  }
+}
+
 // (1 - o) (1 - o + o h): continuous from absent to opaque.
 TEST(Transmittance, IsOfOpacityAndHue)
 {
