@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadianceMap.h"
 
+#include "PlanTable.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
@@ -23,6 +24,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTable.h"
 
 #include <cmath>
 #include <string>
@@ -134,6 +136,7 @@ std::vector<std::size_t> AddInputs(vtkShadowSceneBuilder* builder, vtkInformatio
 vtkRadianceMap::vtkRadianceMap()
 {
   this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(2);
 }
 
 vtkRadianceMap::~vtkRadianceMap() = default;
@@ -148,6 +151,12 @@ int vtkRadianceMap::FillInputPortInformation(int port, vtkInformation* info)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
+  return 1;
+}
+
+int vtkRadianceMap::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == PLAN ? "vtkTable" : "vtkMultiBlockDataSet");
   return 1;
 }
 
@@ -196,7 +205,9 @@ int vtkRadianceMap::RequestData(
     Builder::Receiver | Builder::DefaultReceiver | Builder::Occluder);
   AddInputs(builder, inputVector[OCCLUDERS], "Occluders", Builder::Occluder);
 
-  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector, RADIANCE);
+  vtkTable* plan = vtkTable::GetData(outputVector, PLAN);
+  penumbra::MakePlanTable(plan);
   const penumbra::ShadowScene& scene = builder->GetScene();
   if (scene.Receivers.empty())
   {
@@ -232,6 +243,7 @@ int vtkRadianceMap::RequestData(
       {
         continue;
       }
+      penumbra::AddToPlanTable(static_cast<int>(reports[i].Receiver), reports[i], plan);
       const penumbra::Receiver& receiver = scene.Receivers[reports[i].Receiver];
       vtkNew<vtkStructuredGrid> grid;
       AddPoints(receiver, grid);

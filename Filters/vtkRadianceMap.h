@@ -25,10 +25,14 @@
  * - ErrorEstimate (float): standard error of the mean of the radiance's components, from the
  * difference of two halves of the samples (0 by one sample, which has none); and the field data
  * - LightSamples (int, one tuple a light): samples taken; 0 where none were needed;
- * - Effect (string, one a light): "None", "Unoccluded" or "Soft";
+ * - Effect (string, one a light): "None", "Unoccluded", "Umbra", "Hard" or "Soft";
  * - StoppedBy (string): the property that decided how many samples were taken: "LightSamples",
  *   "SolidAnglePerSample", "ErrorTolerance" or "MaximumLightSamples";
  * - BakeSeconds (double).
+ *
+ * A second output, a vtkTable, says what was decided and done for each receiver and light, a row
+ * each: Receiver and Light (indices), Effect, Reason, LightSamples, Texels (that samples were taken
+ * for), Triangles (that could block the light) of SceneTriangles, Milliseconds, Bytes (of masks).
  *
  * The bake needs OpenGL 3.2, on any machine: without a display, a headless window serves. A missing
  * OpenGL is an error, and so is every input that the bake leaves out; the rest is baked.
@@ -60,6 +64,13 @@ public:
     LIGHTS = 2
   };
 
+  /// The output ports.
+  enum Outputs
+  {
+    RADIANCE = 0,
+    PLAN = 1
+  };
+
   ///@{
   /**
    * Disconnect all inputs of a port, as RemoveAllInputConnections() with the port's number:
@@ -76,6 +87,7 @@ protected:
   ~vtkRadianceMap() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   /// Whatever piece is asked for, all of the scene: a shadow may come from anywhere.
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;

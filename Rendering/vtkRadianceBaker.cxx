@@ -131,6 +131,15 @@ struct vtkRadianceBaker::Job
     return this->Plan.Lights[light]->TakeSamples(points);
   }
 
+  /// The texels whose shares of a light are kept, if they are: all that a bake may read.
+  penumbra::TexelRectangle GetKeptRectangle(std::size_t light) const
+  {
+    const int halo =
+      this->Receiver.Settings.Reconstruction ? vtkRadianceResolver::GetReconstructionHalo() : 0;
+    return this->Plan.Pairs[light].Shaded.Grown(halo).Intersection(
+      penumbra::WholeRectangle(this->Plan.Texels));
+  }
+
   void NoteBytes(std::size_t light, std::size_t bytes)
   {
     PairReport& pair = this->Result.Pairs[light];
@@ -329,9 +338,9 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
 {
   const penumbra::PairPlan& pair = job.Plan.Pairs[light];
   const penumbra::TexelRectangle shaded = job.Resolved.Intersection(pair.Shaded);
-  if (job.Wanted.Kept && this->BakeFromKept(job, light, count, shaded))
+  if (job.Wanted.Kept && this->MayKeep(job, light))
   {
-    return true;
+    return this->BakeFromKept(job, light, count, shaded);
   }
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
         shaded, pair.Shaded, this->GetOptions(job, light)))
@@ -516,6 +525,33 @@ bool vtkRadianceBaker::RefineLight(
   return true;
 }
 
+bool vtkRadianceBaker::MayKeep(Job& job, std::size_t light)
+{
+  const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  const penumbra::LightShape& seen = *job.Plan.Lights[light];
+  KeptLight& kept = (*job.Wanted.Kept)[light];
+  if (kept.Shares.GetCount() != vtkRadianceResolver::CountShares(seen, pair.IsTinted))
+  {
+    kept.Shares.Release(); // a tint has come or gone
+    kept = KeptLight();
+  }
+  const penumbra::TexelRectangle needed = job.GetKeptRectangle(light);
+  const auto bytes = static_cast<std::size_t>(kept.Shares.Stored.Union(needed).GetArea()) *
+    vtkRadianceResolver::GetKeptBytesPerTexel(seen, pair.IsTinted);
+  // New shares are kept of whole bakes alone, and all only while there is room.
+  const bool isNew = kept.Shares.Stored.IsEmpty();
+  if (bytes > job.KeptBytes ||
+    (isNew ? !job.Resolved.Holds(pair.Shaded)
+           : !kept.Shares.Stored.Holds(needed) && !kept.Shares.Extend(needed)))
+  {
+    kept = KeptLight();
+    return false;
+  }
+  job.KeptBytes -= bytes;
+  kept.Stale = isNew ? needed : kept.Stale.Intersection(needed);
+  return true;
+}
+
 bool vtkRadianceBaker::BakeFromKept(
   Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded)
 {
@@ -523,47 +559,28 @@ bool vtkRadianceBaker::BakeFromKept(
   KeptLight& kept = (*job.Wanted.Kept)[light];
   vtkRadianceResolver::Options options = this->GetOptions(job, light);
   options.Kept = &kept.Shares;
-  if (kept.Shares.GetCount() !=
-    vtkRadianceResolver::CountShares(*job.Plan.Lights[light], pair.IsTinted))
-  {
-    kept.Shares.Release(); // a tint has come or gone
-    kept = KeptLight();
-  }
-  const bool isNew = kept.Shares.Stored.IsEmpty();
-  const int halo = options.Reconstruction ? vtkRadianceResolver::GetReconstructionHalo() : 0;
-  const penumbra::TexelRectangle needed =
-    pair.Shaded.Grown(halo).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
-  const penumbra::LightShape& seen = *job.Plan.Lights[light];
-  const auto bytes = static_cast<std::size_t>(kept.Shares.Stored.Union(needed).GetArea()) *
-    vtkRadianceResolver::GetKeptBytesPerTexel(seen, pair.IsTinted);
-  // New shares are kept of whole bakes alone, and all only while there is room.
-  if (bytes > job.KeptBytes ||
-    (isNew ? job.Resolved != penumbra::WholeRectangle(job.Plan.Texels)
-           : !kept.Shares.Stored.Holds(needed) && !kept.Shares.Extend(needed)))
-  {
-    kept = KeptLight();
-    return false;
-  }
-  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
-        isNew ? job.Resolved : shaded, pair.Shaded, options))
-  {
-    kept = KeptLight();
-    return false;
-  }
-  job.KeptBytes -= bytes;
-  const penumbra::TexelRectangle stale = isNew ? needed : kept.Stale.Intersection(needed);
+  const penumbra::TexelRectangle stale = kept.Stale;
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
-  if (!stale.IsEmpty() &&
-    (!this->Resolver->SetSamples(samples) ||
-      !this->DrawMasks(job, light, samples, stale, false,
-        [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
-        { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); })))
+  if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
+        shaded, pair.Shaded, options) ||
+    (!stale.IsEmpty() &&
+      (!this->Resolver->SetSamples(samples) ||
+        !this->DrawMasks(job, light, samples, stale, false,
+          [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
+          { this->Resolver->CountMasks(this->Masks, maskFirstTexel, band); }))))
   {
     kept = KeptLight();
     return false;
   }
   kept.Stale = {};
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
+  for (const vtkSmartPointer<vtkVisibilityShare>& share : kept.Shares.Shares)
+  {
+    if (share)
+    {
+      share->ReleaseSamples();
+    }
+  }
   return true;
 }
 

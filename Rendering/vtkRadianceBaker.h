@@ -144,6 +144,8 @@ private:
   bool BakeLights(Job& job);
   bool BakeLight(Job& job, std::size_t light, int count);
   bool BakeShaded(Job& job, std::size_t light, int count);
+  /// Whether a light's shares are kept; they are then made to fit.
+  bool MayKeep(Job& job, std::size_t light);
   bool BakeFromKept(Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded);
   bool SelectOccluders(Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
   /// ErrorTolerance: more samples for the lights, until they have enough of them.

@@ -719,6 +719,10 @@ void vtkSoftShadowPass::ReleaseGraphicsResources(vtkWindow* window)
   }
   if (window == this->Impl->Window)
   {
+    for (ShownProp& shown : this->Impl->Shown)
+    {
+      shown.Baked->ReleaseGraphicsResources();
+    }
     this->Impl->Shown.clear();
     this->Impl->Window = nullptr; // the next frame bakes anew
   }

@@ -208,7 +208,7 @@ std::size_t vtkVisibilityShare::GetBytes() const
   return this->Textures[0]->GetBytes() + this->Textures[1]->GetBytes();
 }
 
-void vtkVisibilityShare::ReleaseGraphicsResources()
+void vtkVisibilityShare::ReleaseSamples()
 {
   if (this->Window)
   {
@@ -219,6 +219,11 @@ void vtkVisibilityShare::ReleaseGraphicsResources()
     this->Transmittances->ReleaseGraphicsResources(this->Window);
     this->TransmittanceBuffer->ReleaseGraphicsResources();
   }
+}
+
+void vtkVisibilityShare::ReleaseGraphicsResources()
+{
+  this->ReleaseSamples();
   this->Textures[0]->ReleaseGraphicsResources();
   this->Textures[1]->ReleaseGraphicsResources();
   this->Program = nullptr;

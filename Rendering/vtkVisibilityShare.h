@@ -92,6 +92,12 @@ public:
   std::size_t GetBytes() const;
 
   /**
+   * Free what counting needs, and keep what was counted. Textures know their window; buffers would
+   * be freed in whatever context is current when they go.
+   */
+  void ReleaseSamples();
+
+  /**
    * Free the OpenGL resources.
    */
   void ReleaseGraphicsResources();

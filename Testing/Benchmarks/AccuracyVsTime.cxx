@@ -379,7 +379,7 @@ Study Measure(const Plan& plan)
 {
   Techniques techniques;
   Study study;
-  study.Scenes = { MakeContactScene(), MakePenumbraScene(), MakeOverlapScene(), MakeLatticeScene(),
+  study.Scenes = { MakeContactScene(), MakePenumbraScene(), MakeOverlapScene(),
     MakeSpheresScene(plan.SphereRings) };
   for (const StudyScene& scene : study.Scenes)
   {

@@ -189,28 +189,6 @@ StudyScene MakeOverlapScene()
   return scene;
 }
 
-StudyScene MakeLatticeScene()
-{
-  constexpr int Layers = 4, Slats = 12;
-  constexpr double Pitch = 0.22, Width = 0.08, Length = 2.6;
-  StudyScene scene = MakeScene(
-    "lattice", "Lattice: 48 slats in four layers", MakeLight({ 0.2, -0.1, 3.0 }, 1.0, 0.8, 0.4));
-  for (int layer = 0; layer < Layers; ++layer)
-  {
-    TestScene slats;
-    for (int slat = 0; slat < Slats; ++slat)
-    {
-      const double x = Pitch * (slat - 0.5 * (Slats - 1)) - 0.5 * Width;
-      slats.AddPlate(
-        { x, -0.5 * Length, 0.4 + 0.25 * layer }, { Width, 0.0, 0.0 }, { 0.0, Length, 0.0 });
-    }
-    // A quarter turn and a little from each layer to the next.
-    AddTurned(scene.Exact, slats, 0.09 + (0.5 * std::acos(-1.0) + 0.17) * layer);
-  }
-  scene.Baked = scene.Exact.MakeScene();
-  return scene;
-}
-
 StudyScene MakeSpheresScene(int rings)
 {
   StudyScene scene = MakeScene("spheres", "Spheres: 12, tessellated",

@@ -35,9 +35,6 @@ StudyScene MakeContactScene();
 StudyScene MakePenumbraScene();
 /// Overlap: 36 tilted plates at six heights, so that several cover one another in the light's view.
 StudyScene MakeOverlapScene();
-/// Lattice: four layers of 12 slats, each crossing the one below, so that most texels see the light
-/// through many holes at once: harder than the others by far.
-StudyScene MakeLatticeScene();
 /// Spheres: those of MakeSpheres(rings), for what many triangles cost.
 StudyScene MakeSpheresScene(int rings);
 

@@ -191,6 +191,8 @@ ExactCount CountExactly(const FuzzedScene& scene)
 FuzzedScene WithoutFilters(FuzzedScene scene)
 {
   scene.Settings.Reconstruction = false;
+  scene.Settings.HardPenumbra = 0.0; // all samples, of all lights
+  scene.Settings.PlannerTolerance = 0.0;
   scene.Settings.Supersampling = 1;
   if (scene.Settings.Side == penumbra::ReceiverSide::Auto)
   {

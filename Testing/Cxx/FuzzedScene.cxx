@@ -224,6 +224,8 @@ void Maker::MakeSettings(FuzzedScene& scene)
   penumbra::ReceiverSettings& s = scene.Settings;
   const int width = 1 + static_cast<int>(this->Random.Below(mostTexels));
   scene.Texels = { width, 1 + static_cast<int>(this->Random.Below(mostTexels)) };
+  s.HardPenumbra = 0.0; // all samples, of all lights
+  s.PlannerTolerance = 0.0;
   s.LightSamples = 1 + static_cast<int>(this->Random.Below(mostSamples));
   s.SamplingPattern = static_cast<int>(this->Random.Below(penumbra::GetSamplingPatterns().size()));
   s.Supersampling = this->OneIn(8) ? 2 : 1;

@@ -89,6 +89,8 @@ double GetRadianceBound(int samples)
 std::vector<glm::vec4> BakeTexels(TestScene scene)
 {
   scene.Settings.Reconstruction = false;
+  scene.Settings.HardPenumbra = 0.0; // all samples, of all lights
+  scene.Settings.PlannerTolerance = 0.0;
   return BakeReceiver(scene.MakeScene()).Texels.Irradiance;
 }
 
@@ -115,6 +117,8 @@ CountError CompareWithCount(const TestScene& scene, penumbra::ShadowScene made)
   receiver.Texels = scene.Texels;
   receiver.Settings = scene.Settings;
   receiver.Settings.Reconstruction = false;
+  receiver.Settings.HardPenumbra = 0.0; // all samples, of all lights
+  receiver.Settings.PlannerTolerance = 0.0;
   const std::vector<glm::vec4> texels = BakeReceiver(made).Texels.Irradiance;
   const oracle::TexelGrid grid{ ToOracle(scene.Base.Corner), ToOracle(scene.Base.EdgeX),
     ToOracle(scene.Base.EdgeY), scene.Texels.x, scene.Texels.y,

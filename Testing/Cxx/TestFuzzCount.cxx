@@ -74,9 +74,11 @@ glm::dmat4 MakeMotion(unsigned seed)
 penumbra::ShadowScene Move(penumbra::ShadowScene scene, const glm::dmat4& motion)
 {
   const auto move = [&](glm::dvec3& p) { p = glm::dvec3(motion * glm::dvec4(p, 1.0)); };
-  for (penumbra::Surface& surface : scene.Surfaces)
+  for (penumbra::SharedSurface& shared : scene.Surfaces)
   {
+    penumbra::Surface surface = *shared;
     std::for_each(surface.Points.begin(), surface.Points.end(), move);
+    shared = surface;
   }
   penumbra::Parallelogram& base = scene.Receivers.front().Base;
   move(base.Corner);

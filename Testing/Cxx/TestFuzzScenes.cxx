@@ -117,8 +117,7 @@ TEST_P(FuzzScenes, AnOccluderNeverBrightens)
       if (!scene.Lights.empty())
       {
         only.Occluders = { MakeFuzzedTriangle(scene, seed, FuzzedKind::Nasty) };
-        const std::vector<penumbra::Surface> surfaces = only.Make().Surfaces;
-        more.Surfaces.push_back(surfaces.back());
+        more.Surfaces.push_back(only.Make().Surfaces.back());
       }
       return Deviation{ GetExcess(BakeReceiver(more).Texels, Bake(scene)), 0.0 };
     });

@@ -379,7 +379,7 @@ TEST(StabilityFault, ViewIsPlainWithoutATexture)
   const std::vector<std::string> mipmaps{ "ERROR", "OpenGL refused the mip levels", "TexelSize" };
   for (const ViewFault& fault :
     std::vector<ViewFault>{ { "radiance", RefuseFormat(GL_RGBA32F), texture },
-      { "variance", RefuseFormat(GL_R32F), texture },
+      { "variance", RefuseFormat(GL_R32F), texture, toTolerance },
       { "masks", RefuseFormat(GL_R32UI), { "ERROR", "OpenGL refused a mask", "fewer" } },
       { "closed form", RefuseFormat(GL_RGBA32F, 1), texture },
       { "share", RefuseFormat(GL_RG32F), texture },
@@ -391,8 +391,8 @@ TEST(StabilityFault, ViewIsPlainWithoutATexture)
       { "shares of batches", RefuseFormat(GL_RGBA32F, 3), texture, toTolerance },
       { "samples", RefuseFirst(OpenGLCall::TextureBuffer),
         { "ERROR", "OpenGL refused a buffer", "fewer" } },
-      { "triangles", RefuseFirst(OpenGLCall::Buffer),
-        { "ERROR", "OpenGL refused buffers", "fewer" } } })
+      { "samples or triangles", RefuseFirst(OpenGLCall::Buffer),
+        { "ERROR", "OpenGL refused", "fewer" } } })
   {
     ExpectPlainThenGood(fault);
   }
@@ -425,11 +425,11 @@ TEST(StabilityFault, MapLeavesOutTheReceiverThatIsRefused)
   {
     const Messages messages;
     const OpenGLRefusal refusal([](const OpenGLCall& call)
-      { return call.What == OpenGLCall::Texture && call.Format == GL_R32UI && call.Width == 40; });
+      { return call.What == OpenGLCall::Texture && call.Format == GL_R32UI && call.Width > 24; });
     const auto others = map.Bake();
     ASSERT_EQ(others.size(), 1u);
     EXPECT_EQ(others[0], good[1]);
-    messages.ExpectOne({ "OpenGL refused a mask of 40 x 40 texels for 64 samples", "fewer" });
+    messages.ExpectOne({ "OpenGL refused a mask of", "texels for 64 samples", "fewer" });
   }
   EXPECT_EQ(map.Bake(), good);
 }

@@ -131,8 +131,9 @@ void RequireFinite(const penumbra::Light& light, const penumbra::Parallelogram& 
 
 void RequireFinite(const penumbra::ShadowScene& scene)
 {
-  for (const penumbra::Surface& surface : scene.Surfaces)
+  for (const penumbra::SharedSurface& shared : scene.Surfaces)
   {
+    const penumbra::Surface& surface = *shared;
     RequireFinite(surface);
   }
   for (const penumbra::Receiver& receiver : scene.Receivers)
