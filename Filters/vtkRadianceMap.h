@@ -8,7 +8,8 @@
  * data. Inputs are polygonal data or composite data of them:
  * - port 0, Receivers (one or more): vtkShadowReceiver's output; other planar data get its
  * defaults. They block light from each other, too;
- * - port 1, Occluders (any number): surfaces that block light;
+ * - port 1, Occluders (any number): surfaces that block light, or let some
+ * of it pass (vtkShadowCaster);
  * - port 2, Lights (any number): output of vtkAreaLightSource or vtkAreaLightFromSurface.
  *
  * A surface that receives by a proxy plane (vtkShadowReceiver::ProxyPlane) is one receiver: the

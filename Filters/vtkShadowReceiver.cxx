@@ -4,6 +4,7 @@
 
 #include "PolyDataStructure.h"
 #include "ShadowSettings.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -55,22 +56,27 @@ int vtkShadowReceiver::RequestData(
   settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
   settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
   settings.ProxyNormal = glm::make_vec3(this->ProxyNormal);
+  penumbra::CasterSettings caster;
+  caster.CastShadow = this->CastShadow;
+  vtkFieldData* fieldData = output->GetFieldData();
+  vtkShadowFieldData::Write(
+    vtkShadowFieldData::ReadCaster(fieldData).Overridden(caster), fieldData);
   // Of data that are spread over processes, some may hold nothing.
   const int pieces = outputVector->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
   if (pieces > 1 && input->GetNumberOfCells() == 0)
   {
-    vtkShadowFieldData::WriteRefusal("this process holds none of it", output->GetFieldData());
+    vtkShadowFieldData::WriteRefusal("this process holds none of it", fieldData);
     return 1;
   }
   const std::string problem = vtkShadowSceneBuilder::FindReceiverProblem(input, settings);
   if (!problem.empty())
   {
     vtkErrorMacro("ShadowReceiver: " << problem << ".");
-    vtkShadowFieldData::WriteRefusal(problem, output->GetFieldData());
+    vtkShadowFieldData::WriteRefusal(problem, fieldData);
     return 1; // the input goes on, to be drawn plain
   }
-  vtkShadowFieldData::Write(settings, output->GetFieldData());
+  vtkShadowFieldData::Write(settings, fieldData);
   return 1;
 }
 
@@ -99,4 +105,5 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ProxyPlaneMode: " << this->ProxyPlaneMode << "\n";
   print("ProxyOrigin", this->ProxyOrigin);
   print("ProxyNormal", this->ProxyNormal);
+  os << indent << "CastShadow: " << this->CastShadow << "\n";
 }

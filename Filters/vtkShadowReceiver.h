@@ -245,6 +245,16 @@ public:
   vtkGetVector3Macro(ProxyNormal, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether the surface casts shadows, on other receivers and its own other faces, unless what it
+   * is made of says already that it casts none (vtkShadowCaster). Default is on.
+   */
+  vtkSetMacro(CastShadow, bool);
+  vtkGetMacro(CastShadow, bool);
+  vtkBooleanMacro(CastShadow, bool);
+  ///@}
+
 protected:
   vtkShadowReceiver();
   ~vtkShadowReceiver() override;
@@ -276,6 +286,7 @@ private:
   int ProxyPlaneMode = BEST_FIT;
   double ProxyOrigin[3] = { 0.0, 0.0, 0.0 };
   double ProxyNormal[3] = { 0.0, 0.0, 1.0 };
+  bool CastShadow = true;
 };
 
 #endif

@@ -229,6 +229,28 @@ std::string Describe(double penumbraTexels)
   return text.str();
 }
 
+/// What the reason of an effect that takes samples adds if they are weighed.
+std::string DescribeTranslucent(const PairPlan& pair)
+{
+  return pair.Translucent > 0 ? ", through " + std::to_string(pair.Translucent) +
+      " translucent surface" + (pair.Translucent > 1 ? "s" : "")
+                              : "";
+}
+
+// ---- Occluders ----
+
+/// Notes a surface that may shade the pair.
+void AddCaster(const SharedSurface& surface, const TexelRectangle& shadow, PairPlan& pair)
+{
+  pair.Casters.push_back({ surface, shadow });
+  if (surface->IsTranslucent())
+  {
+    const glm::dvec3& passing = surface->Transmittance;
+    ++pair.Translucent;
+    pair.IsTinted = pair.IsTinted || passing.x != passing.y || passing.x != passing.z;
+  }
+}
+
 /// What the selected occluders ask for.
 void PlanOccluded(const ReceiverPlan& plan, const LightShape& seen, const ShadowScene& scene,
   const ReceiverSettings& settings, const OccluderSelector& occluders, PairPlan& pair)
@@ -239,7 +261,7 @@ void PlanOccluded(const ReceiverPlan& plan, const LightShape& seen, const Shadow
   for (const Caster& caster : occluders.GetCasters())
   {
     const TexelRectangle texels = caster.Shadow.GetTexels(plan.Texels);
-    pair.Casters.push_back({ scene.Surfaces[caster.Surface], texels });
+    AddCaster(scene.Surfaces[caster.Surface], texels, pair);
     pair.Triangles += caster.Triangles;
     shadow.Add(caster.Shadow);
   }
@@ -262,12 +284,14 @@ void PlanOccluded(const ReceiverPlan& plan, const LightShape& seen, const Shadow
     pair.Needed = Effect::Hard;
     pair.Reason = pair.PenumbraTexels > 0.0 ? "no penumbra is wider than HardPenumbra"
                                             : "the light has no extent";
+    pair.Reason += DescribeTranslucent(pair);
   }
   else
   {
     pair.Needed = Effect::Soft;
     pair.Reason =
       pair.IsUnbounded ? "an occluder reaches the light's height" : Describe(pair.PenumbraTexels);
+    pair.Reason += DescribeTranslucent(pair);
   }
 }
 
@@ -277,14 +301,14 @@ void PlanEverything(const ReceiverPlan& plan, const LightShape& seen, const Shad
 {
   occluders.SelectAll(seen);
   pair.Needed = Effect::Soft;
-  pair.Reason = "the planner is off";
   pair.Shaded = WholeRectangle(plan.Texels);
   pair.IsUnbounded = true;
-  pair.Triangles = occluders.GetTriangles().size();
   for (const Caster& caster : occluders.GetCasters())
   {
-    pair.Casters.push_back({ scene.Surfaces[caster.Surface], pair.Shaded });
+    AddCaster(scene.Surfaces[caster.Surface], pair.Shaded, pair);
+    pair.Triangles += caster.Triangles;
   }
+  pair.Reason = "the planner is off" + DescribeTranslucent(pair);
 }
 
 PairPlan PlanPair(const ReceiverPlan& plan, const LightShape& seen, const ShadowScene& scene,
@@ -305,7 +329,7 @@ PairPlan PlanPair(const ReceiverPlan& plan, const LightShape& seen, const Shadow
     return pair;
   }
   occluders.Select(seen);
-  if (occluders.GetTriangles().empty())
+  if (occluders.GetCasters().empty())
   {
     pair.Needed = Effect::Unoccluded;
     pair.Reason = "no occluder is between them";
@@ -346,6 +370,10 @@ bool IsWhollyBlocked(
 {
   const std::vector<glm::dvec3>& points = occluders.GetPoints();
   const std::vector<Surface::Triangle>& triangles = occluders.GetTriangles();
+  if (triangles.empty())
+  {
+    return false;
+  }
   const auto isSmaller = [&](const Surface::Triangle& s, const Surface::Triangle& t)
   {
     const auto twiceArea = [&](const Surface::Triangle& u)

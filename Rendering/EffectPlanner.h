@@ -45,10 +45,10 @@ PENUMBRARENDERING_EXPORT Effect PlanEffect(
   const ReceiverFrame& frame, const LightShape& seen, bool hasOccluders);
 
 /**
- * Whether one plane of the selected triangles hides all of a light from all of a receiver: every
- * ray from a corner of the one to a corner of the other meets it, and so all between them do, since
- * where rays meet a plane is a convex combination of where their neighbours do. The triangles of a
- * plane count together.
+ * Whether one plane of the selected triangles, of opaque surfaces, hides all of a light from all of
+ * a receiver: every ray from a corner of the one to a corner of the other meets it, and so all
+ * between them do, since where rays meet a plane is a convex combination of where their neighbours
+ * do. The triangles of a plane count together.
  */
 PENUMBRARENDERING_EXPORT bool IsWhollyBlocked(
   const ReceiverFrame& frame, const LightShape& seen, const OccluderSelector& occluders);
@@ -72,6 +72,8 @@ struct PairPlan
   bool IsUnbounded = false;  ///< an occluder reaches the light's height: shadows may fall anywhere
   std::size_t Triangles = 0; ///< that may block
   std::vector<PlannedCaster> Casters; ///< in the scene's order
+  std::size_t Translucent = 0; ///< how many of them are: if any, samples are weighed, not counted
+  bool IsTinted = false;       ///< whether one of these weakens components differently
 };
 
 /// What was decided for a receiver.

@@ -3,6 +3,7 @@
 #include "OccluderSelector.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace penumbra
@@ -108,6 +109,7 @@ void OccluderSelector::Clear()
   this->Tops.clear();
   this->NotedBy.clear();
   this->Selected.clear();
+  this->Translucent.clear();
   this->Casters.clear();
 }
 
@@ -171,6 +173,7 @@ void OccluderSelector::SelectAll(const LightShape& seen)
 void OccluderSelector::Run(const Search& search)
 {
   this->Selected.clear();
+  this->Translucent.clear();
   this->Casters.clear();
   ++this->Selections;
   this->Surfaces.Visit(search.Planes,
@@ -186,13 +189,28 @@ void OccluderSelector::Run(const Search& search)
     [](const Caster& a, const Caster& b) { return a.Surface < b.Surface; });
 }
 
+std::vector<Caster> OccluderSelector::GetTranslucentCasters() const
+{
+  std::vector<Caster> casters;
+  std::copy_if(this->Casters.begin(), this->Casters.end(), std::back_inserter(casters),
+    [this](const Caster& caster)
+    { return this->Scene->Surfaces[caster.Surface]->IsTranslucent(); });
+  return casters;
+}
+
 void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
 {
   const SharedSurface& shared = this->Scene->Surfaces[index];
   const Surface& surface = *shared;
   const bool isReceivers = index == this->Base->Surface;
+  if (!surface.CastsShadow())
+  {
+    return;
+  }
+  std::vector<Triangle>& selected = surface.IsTranslucent() ? this->Translucent : this->Selected;
   Caster caster;
   caster.Surface = index;
+  caster.First = selected.size();
   shared.GetClusters().Visit(search.Planes,
     [&](const ClusterTree::Items& triangles)
     {
@@ -208,7 +226,7 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
           this->GetPlace(part, surface, b), this->GetPlace(part, surface, c) };
         if (this->MayBlock(placed, part, search))
         {
-          this->AddTriangle(placed, part, search, caster);
+          this->AddTriangle(placed, part, search, selected, caster);
         }
       }
     });
@@ -229,13 +247,14 @@ bool OccluderSelector::MayBlock(
 }
 
 void OccluderSelector::AddTriangle(
-  const Triangle& triangle, const Part& part, const Search& search, Caster& caster)
+  const Triangle& triangle, const Part& part, const Search& search, std::vector<Triangle>& selected,
+  Caster& caster)
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];
   if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
   {
-    this->Selected.push_back(triangle);
+    selected.push_back(triangle);
     ++caster.Triangles;
     for (const std::uint32_t place : triangle)
     {
@@ -250,7 +269,7 @@ void OccluderSelector::AddTriangle(
     this->NotePoint(this->AddPoint(polygon[i], part), search, caster);
     if (i > 0 && i + 1 < polygon.size())
     {
-      this->Selected.push_back({ first, first + i, first + i + 1 });
+      selected.push_back({ first, first + i, first + i + 1 });
       ++caster.Triangles;
     }
   }

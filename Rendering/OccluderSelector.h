@@ -23,6 +23,7 @@ struct Caster
 {
   std::size_t Surface = 0;   ///< index into the scene's
   std::size_t Triangles = 0; ///< how many of its triangles may
+  std::size_t First = 0;     ///< of these, in GetTriangles() or GetTranslucent()
   ShadowBounds Shadow;
 };
 
@@ -32,9 +33,9 @@ struct Caster
  * that touch the region are looked at, and brought into the receiver's frame, in double: what is
  * close to the receiver keeps its height, wherever in the world it is.
  *
- * Triangles of the receiver itself are left out. What lies in the receiver's plane, or in that of a
- * flat light, but for the rounding of coordinates, blocks nothing: a rug on a floor, a ceiling
- * around a lamp.
+ * Triangles of the receiver itself are left out, and surfaces that cast no shadow. What lies in the
+ * receiver's plane, or in that of a flat light, but for the rounding of coordinates, blocks
+ * nothing: a rug on a floor, a ceiling around a lamp.
  */
 class PENUMBRARENDERING_EXPORT OccluderSelector
 {
@@ -56,11 +57,15 @@ public:
   /// Select the triangles of the whole scene, wherever they are: to check Select() by.
   void SelectAll(const LightShape& seen);
 
-  /// Points in the receiver's frame, to which GetTriangles() refers; others may be among them.
+  /// Points in the receiver's frame, to which triangles refer; others may be among them.
   const std::vector<glm::dvec3>& GetPoints() const { return this->Points; }
+  /// The triangles of opaque surfaces, and those of translucent ones, surface by surface.
   const std::vector<Triangle>& GetTriangles() const { return this->Selected; }
+  const std::vector<Triangle>& GetTranslucent() const { return this->Translucent; }
   /// The surfaces that these are of.
   const std::vector<Caster>& GetCasters() const { return this->Casters; }
+  /// Those among them that are translucent.
+  std::vector<Caster> GetTranslucentCasters() const;
 
   /// Of each point, a height that all of its surface is below.
   const std::vector<double>& GetTops() const { return this->Tops; }
@@ -106,8 +111,8 @@ private:
   std::uint32_t GetPlace(Part& part, const Surface& surface, std::uint32_t point);
   void SelectFrom(std::size_t surface, const Search& search);
   bool MayBlock(const Triangle& triangle, const Part& part, const Search& search) const;
-  void AddTriangle(
-    const Triangle& triangle, const Part& part, const Search& search, Caster& caster);
+  void AddTriangle(const Triangle& triangle, const Part& part, const Search& search,
+    std::vector<Triangle>& selected, Caster& caster);
   void NotePoint(std::uint32_t place, const Search& search, Caster& caster);
 
   const ShadowScene* Scene = nullptr;
@@ -120,6 +125,7 @@ private:
   std::vector<std::uint32_t> NotedBy; ///< of each point, the last selection that noted its shadow
   std::uint32_t Selections = 0;
   std::vector<Triangle> Selected;
+  std::vector<Triangle> Translucent;
   std::vector<Caster> Casters;
 };
 

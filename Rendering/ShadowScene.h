@@ -34,6 +34,12 @@ struct Surface
   std::vector<int> Regions;
   /// How far the coordinates may be off by the rounding of their type, along each axis.
   glm::dvec3 Rounding{ 0.0 };
+  /// The share of light that passes (red, green, blue), 0 to 1 each: 0 blocks, 1 casts no shadow.
+  /// The surface weakens a ray once, however many of its triangles the ray crosses.
+  glm::dvec3 Transmittance{ 0.0 };
+
+  bool IsTranslucent() const { return this->Transmittance != glm::dvec3(0.0); }
+  bool CastsShadow() const { return this->Transmittance != glm::dvec3(1.0); }
 };
 
 /**
@@ -79,8 +85,8 @@ struct PENUMBRARENDERING_EXPORT Receiver
 };
 
 /**
- * The surfaces, receivers and lights of a bake, free of VTK. All surfaces block light, those of the
- * receivers among them; the lights' own surfaces do not.
+ * The surfaces, receivers and lights of a bake, free of VTK. All surfaces block light, or weaken it
+ * by their transmittance, those of the receivers among them; the lights' own surfaces do not.
  */
 struct PENUMBRARENDERING_EXPORT ShadowScene
 {

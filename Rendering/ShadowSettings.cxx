@@ -162,6 +162,31 @@ int ReceiverSettings::GetSampleCount(double solidAngle) const
   return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(this->MaximumLightSamples)));
 }
 
+std::string CasterSettings::FindProblem() const
+{
+  return this->Transmittance && !IsIn(*this->Transmittance, 0.0, 1.0)
+    ? Describe("Transmittance", *this->Transmittance, "0 to 1 for each component")
+    : "";
+}
+
+CasterSettings CasterSettings::Overridden(const CasterSettings& own) const
+{
+  return { this->CastShadow && own.CastShadow,
+    own.Transmittance ? own.Transmittance : this->Transmittance };
+}
+
+glm::dvec3 CasterSettings::GetTransmittance() const
+{
+  return this->CastShadow ? this->Transmittance.value_or(glm::dvec3(0.0)) : glm::dvec3(1.0);
+}
+
+glm::dvec3 GetTransmittance(double opacity, const glm::dvec3& colour)
+{
+  const double largest = std::max({ colour.x, colour.y, colour.z });
+  const glm::dvec3 hue = largest > 0.0 ? colour / largest : glm::dvec3(1.0);
+  return glm::clamp((1.0 - opacity) * (1.0 - opacity + opacity * hue), 0.0, 1.0);
+}
+
 std::string LightSettings::FindProblem() const
 {
   const int shape = static_cast<int>(this->Shape);

@@ -10,6 +10,7 @@
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 
+#include <optional>
 #include <string>
 
 namespace penumbra
@@ -79,6 +80,31 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
 private:
   std::string FindProxyProblem() const;
 };
+
+/// How a surface casts shadows: the properties of vtkShadowCaster, which documents them.
+struct PENUMBRARENDERING_EXPORT CasterSettings
+{
+  bool CastShadow = true;
+  /// Without a value, that of what shows the surface; nothing passes where nothing does.
+  std::optional<glm::dvec3> Transmittance;
+
+  /// Empty if every value makes sense; otherwise names the first that does not and what is allowed.
+  std::string FindProblem() const;
+
+  /// What applies to a surface with settings of its own.
+  CasterSettings Overridden(const CasterSettings& own) const;
+
+  /// What passes: all of it, if no shadow is cast.
+  glm::dvec3 GetTransmittance() const;
+};
+
+/**
+ * The light that passes a surface of an opacity o and a diffuse colour, as it is drawn:
+ * (1 - o) (1 - o + o h), where h is the colour over its largest component. Grey surfaces, black
+ * ones among them, let 1 - o pass, as they do of what is behind them in the picture; others keep
+ * less of the light that is not of their hue, the more so the more opaque they are.
+ */
+PENUMBRARENDERING_EXPORT glm::dvec3 GetTransmittance(double opacity, const glm::dvec3& colour);
 
 /// The kinds of lights; the values are those of the property Shape.
 enum class LightKind

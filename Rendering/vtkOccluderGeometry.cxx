@@ -25,9 +25,15 @@ vtkOccluderGeometry::~vtkOccluderGeometry() = default;
 
 bool vtkOccluderGeometry::Upload(const penumbra::OccluderSelector& occluders)
 {
-  const auto& triangles = occluders.GetTriangles();
-  this->IndexCount = 3 * triangles.size();
-  if (this->IndexCount == 0)
+  std::vector<penumbra::OccluderSelector::Triangle> triangles = occluders.GetTriangles();
+  this->Sets = { { 0, 3 * triangles.size() } };
+  for (const penumbra::Caster& caster : occluders.GetTranslucentCasters())
+  {
+    this->Sets.push_back({ 3 * (triangles.size() + caster.First), 3 * caster.Triangles });
+  }
+  const auto& translucent = occluders.GetTranslucent();
+  triangles.insert(triangles.end(), translucent.begin(), translucent.end());
+  if (triangles.empty())
   {
     return true;
   }
@@ -39,20 +45,21 @@ bool vtkOccluderGeometry::Upload(const penumbra::OccluderSelector& occluders)
   if (!this->Vertices->Upload(
         vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
     !this->Indices->Upload(
-      triangles.front().data(), this->IndexCount, vtkOpenGLBufferObject::ElementArrayBuffer) ||
+      triangles.front().data(), 3 * triangles.size(), vtkOpenGLBufferObject::ElementArrayBuffer) ||
     penumbra::HasOpenGLError())
   {
     vtkErrorMacro("OpenGL refused buffers for " << triangles.size()
                                                 << " triangles that may cast shadows; use fewer.");
-    this->IndexCount = 0;
+    this->Sets.clear();
     return false;
   }
   return true;
 }
 
-void vtkOccluderGeometry::Draw(vtkShaderProgram* program, int instances)
+void vtkOccluderGeometry::Draw(std::size_t set, vtkShaderProgram* program, int instances)
 {
-  if (this->IndexCount == 0)
+  const Range range = set < this->Sets.size() ? this->Sets[set] : Range();
+  if (range.Count == 0)
   {
     return;
   }
@@ -61,8 +68,9 @@ void vtkOccluderGeometry::Draw(vtkShaderProgram* program, int instances)
   arrays->AddAttributeArray(
     program, this->Vertices, "vertexUVHT", 0, sizeof(glm::vec4), VTK_FLOAT, 4, false);
   this->Indices->Bind();
-  glDrawElementsInstanced(
-    GL_TRIANGLES, static_cast<GLsizei>(this->IndexCount), GL_UNSIGNED_INT, nullptr, instances);
+  // OpenGL takes the place in the buffer, in bytes, as a pointer.
+  glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(range.Count), GL_UNSIGNED_INT,
+    reinterpret_cast<const void*>(range.First * sizeof(GLuint)), instances);
   this->Indices->Release();
   arrays->ReleaseGraphicsResources();
 }
@@ -71,11 +79,11 @@ void vtkOccluderGeometry::ReleaseGraphicsResources()
 {
   this->Vertices->ReleaseGraphicsResources();
   this->Indices->ReleaseGraphicsResources();
-  this->IndexCount = 0;
+  this->Sets.clear();
 }
 
 void vtkOccluderGeometry::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Triangles: " << this->IndexCount / 3 << "\n";
+  os << indent << "Sets: " << this->Sets.size() << "\n";
 }

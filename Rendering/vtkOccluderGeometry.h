@@ -15,6 +15,8 @@
 #include "vtkNew.h"                  // for vtkNew
 #include "vtkObject.h"
 
+#include <vector> // for sets
+
 class vtkOpenGLBufferObject;
 class vtkShaderProgram;
 
@@ -32,10 +34,16 @@ public:
   bool Upload(const penumbra::OccluderSelector& occluders);
 
   /**
-   * Draw all triangles `instances` times with the current program, whose attribute vertexUVHT gets
-   * (u, v, h) and a height that all of the vertex's surface is below.
+   * The triangles come in sets: 0 are those of all opaque surfaces, each of the others those of one
+   * translucent surface, in the order of the selector's casters.
    */
-  void Draw(vtkShaderProgram* program, int instances);
+  std::size_t GetNumberOfSets() const { return this->Sets.size(); }
+
+  /**
+   * Draw the triangles of a set `instances` times with the current program, whose attribute
+   * vertexUVHT gets (u, v, h) and a height that all of the vertex's surface is below.
+   */
+  void Draw(std::size_t set, vtkShaderProgram* program, int instances);
 
   /**
    * Free the OpenGL buffers.
@@ -52,7 +60,13 @@ private:
 
   vtkNew<vtkOpenGLBufferObject> Vertices;
   vtkNew<vtkOpenGLBufferObject> Indices;
-  std::size_t IndexCount = 0;
+  /// The indices of a set in the buffer.
+  struct Range
+  {
+    std::size_t First = 0;
+    std::size_t Count = 0;
+  };
+  std::vector<Range> Sets;
 };
 
 #endif

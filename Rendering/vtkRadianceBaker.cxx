@@ -99,11 +99,19 @@ struct vtkRadianceBaker::Job
   Report Result;
 
   /// How many samples of a light there are after each batch, with ErrorTolerance.
-  std::vector<int> GetBatchEnds() const
+  std::vector<int> GetBatchEnds(std::size_t light) const
   {
-    // OpenGL 3.2 promises room for 8192 samples; Mesa and most drivers have it for all.
-    return vtkVisibilityShare::GetBatchEnds(std::min(this->Receiver.Settings.MaximumLightSamples,
-      vtkVisibilityMask::GetMaximumSamples(this->Window)));
+    return vtkVisibilityShare::GetBatchEnds(
+      std::min(this->Receiver.Settings.MaximumLightSamples, this->GetMaximumSamples(light)));
+  }
+
+  /// The most samples that OpenGL has room for. OpenGL 3.2 promises it for 8192; Mesa and most
+  /// drivers have it for all. Translucent surfaces share it: they leave room for one layer at
+  /// least, or OpenGL refuses it with an error.
+  int GetMaximumSamples(std::size_t light) const
+  {
+    return std::max(vtkVisibilityMask::SamplesPerLayer,
+      vtkVisibilityMask::GetMaximumSamples(this->Window, 1 + this->Plan.Pairs[light].Translucent));
   }
 
   /// A pattern's points for a light.
@@ -116,10 +124,10 @@ struct vtkRadianceBaker::Job
     const penumbra::ReceiverSettings& settings = this->Receiver.Settings;
     const penumbra::SamplingPattern& pattern =
       penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)];
-    std::vector<glm::dvec2> points = pattern.Generate(
-      count, static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
-    points.resize(std::min(
-      points.size(), static_cast<std::size_t>(vtkVisibilityMask::GetMaximumSamples(this->Window))));
+    const int most = this->GetMaximumSamples(light);
+    std::vector<glm::dvec2> points = pattern.Generate(std::min(count, most),
+      static_cast<std::uint32_t>(settings.Seed), this->Plan.Lights[light]->GetAspect());
+    points.resize(std::min(points.size(), static_cast<std::size_t>(most)));
     return this->Plan.Lights[light]->TakeSamples(points);
   }
 
@@ -265,7 +273,8 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   for (const std::size_t light : this->Scene->GetLightOrder())
   {
     const double solidAngle = job.Plan.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    int count = hasTolerance ? job.GetBatchEnds().front() : settings.GetSampleCount(solidAngle);
+    int count =
+      hasTolerance ? job.GetBatchEnds(light).front() : settings.GetSampleCount(solidAngle);
     if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
       settings.SolidAnglePerSample > 0.0)
     {
@@ -291,11 +300,13 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   return !hasTolerance || this->RefineLights(job);
 }
 
-vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job) const
+vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job, std::size_t light) const
 {
   vtkRadianceResolver::Options options;
   options.Reflectance = job.Receiver.Settings.Reflectance;
   options.Reconstruction = job.Receiver.Settings.Reconstruction;
+  options.Translucent = job.Plan.Pairs[light].Translucent > 0;
+  options.Tinted = job.Plan.Pairs[light].IsTinted;
   return options;
 }
 
@@ -307,7 +318,7 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
     return true;
   }
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
-        job.Resolved, {}, this->GetOptions(job)))
+        job.Resolved, {}, this->GetOptions(job, light)))
   {
     return false;
   }
@@ -332,7 +343,7 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
     return this->BakeFromKept(job, light, count, shaded);
   }
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
-        shaded, pair.Shaded, this->GetOptions(job)))
+        shaded, pair.Shaded, this->GetOptions(job, light)))
   {
     return false;
   }
@@ -346,17 +357,25 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
 bool vtkRadianceBaker::SelectOccluders(
   Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
 {
-  if (!job.Receiver.Settings.Planner)
+  if (job.Receiver.Settings.Planner)
+  {
+    const penumbra::TexelRectangle around =
+      rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
+    const glm::dvec2 texels(job.Plan.Texels);
+    this->Occluders.Select(*job.Plan.Lights[light],
+      glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
+  }
+  else
   {
     this->Occluders.SelectAll(*job.Plan.Lights[light]);
-    return this->Geometry->Upload(this->Occluders);
   }
-  const penumbra::TexelRectangle around =
-    rectangle.Grown(1).Intersection(penumbra::WholeRectangle(job.Plan.Texels));
-  const glm::dvec2 texels(job.Plan.Texels);
-  this->Occluders.Select(*job.Plan.Lights[light],
-    glm::dvec4(glm::dvec2(around.Low) / texels, glm::dvec2(around.High) / texels));
-  return this->Geometry->Upload(this->Occluders);
+  std::vector<glm::dvec3> transmittances;
+  for (const penumbra::Caster& caster : this->Occluders.GetTranslucentCasters())
+  {
+    transmittances.push_back(this->Scene->Surfaces[caster.Surface]->Transmittance);
+  }
+  return this->Geometry->Upload(this->Occluders) &&
+    (job.Plan.Pairs[light].Translucent == 0 || this->Resolver->SetTransmittances(transmittances));
 }
 
 template <typename Use>
@@ -370,9 +389,14 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
   const glm::ivec2 size = all.GetSize();
   const int halo = withHalo ? this->Resolver->GetHalo() : 0;
   const int count = static_cast<int>(samples.size());
-  const std::size_t layers =
-    static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
-    vtkVisibilityMask::SamplesPerLayer;
+  if (!this->SelectOccluders(job, light, all))
+  {
+    return false;
+  }
+  const std::size_t sets = this->Geometry->GetNumberOfSets();
+  const std::size_t layers = sets *
+    (static_cast<std::size_t>(count + vtkVisibilityMask::SamplesPerLayer - 1) /
+      vtkVisibilityMask::SamplesPerLayer);
   const std::size_t bytesPerRow = static_cast<std::size_t>(size.x) * layers * sizeof(std::uint32_t);
   std::size_t most = this->MaximumMaskBytes;
   if (job.Wanted.Kept)
@@ -385,8 +409,7 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
     static_cast<int>(std::min(most / bytesPerRow, static_cast<std::size_t>(size.y)));
   const int rows = fitting == size.y ? fitting : std::max(fitting - 2 * halo, 1);
   const glm::ivec2 maskSize(size.x, std::min(rows + 2 * halo, size.y));
-  if (!this->Masks->Allocate(job.Window, maskSize, count) ||
-    !this->SelectOccluders(job, light, all))
+  if (!this->Masks->Allocate(job.Window, maskSize, count, sets))
   {
     return false;
   }
@@ -458,7 +481,7 @@ bool vtkRadianceBaker::RefineLight(
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const bool grows =
     penumbra::GetSamplingPatterns()[static_cast<std::size_t>(settings.SamplingPattern)].Grows;
-  vtkRadianceResolver::Options options = this->GetOptions(job);
+  vtkRadianceResolver::Options options = this->GetOptions(job, light);
   options.InBatches = true;
   const penumbra::TexelRectangle& shaded = job.Plan.Pairs[light].Shaded;
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
@@ -470,7 +493,7 @@ bool vtkRadianceBaker::RefineLight(
   const vtkRadianceTexture::Region scratchRegion = scratch->GetRegions().front();
   scratch->Clear(scratchRegion, penumbra::WholeRectangle(job.Plan.Texels));
   int previous = 0;
-  for (const int count : job.GetBatchEnds())
+  for (const int count : job.GetBatchEnds(light))
   {
     std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
     const int total = static_cast<int>(samples.size());
@@ -505,10 +528,16 @@ bool vtkRadianceBaker::RefineLight(
 bool vtkRadianceBaker::MayKeep(Job& job, std::size_t light)
 {
   const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  const penumbra::LightShape& seen = *job.Plan.Lights[light];
   KeptLight& kept = (*job.Wanted.Kept)[light];
+  if (kept.Shares.GetCount() != vtkRadianceResolver::CountShares(seen, pair.IsTinted))
+  {
+    kept.Shares.Release(); // a tint has come or gone
+    kept = KeptLight();
+  }
   const penumbra::TexelRectangle needed = job.GetKeptRectangle(light);
   const auto bytes = static_cast<std::size_t>(kept.Shares.Stored.Union(needed).GetArea()) *
-    vtkRadianceResolver::GetKeptBytesPerTexel(*job.Plan.Lights[light]);
+    vtkRadianceResolver::GetKeptBytesPerTexel(seen, pair.IsTinted);
   // New shares are kept of whole bakes alone, and all only while there is room.
   const bool isNew = kept.Shares.Stored.IsEmpty();
   if (bytes > job.KeptBytes ||
@@ -528,7 +557,7 @@ bool vtkRadianceBaker::BakeFromKept(
 {
   const penumbra::PairPlan& pair = job.Plan.Pairs[light];
   KeptLight& kept = (*job.Wanted.Kept)[light];
-  vtkRadianceResolver::Options options = this->GetOptions(job);
+  vtkRadianceResolver::Options options = this->GetOptions(job, light);
   options.Kept = &kept.Shares;
   const penumbra::TexelRectangle stale = kept.Stale;
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);

@@ -156,7 +156,7 @@ private:
   template <typename Use>
   bool DrawMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
     const penumbra::TexelRectangle& rectangle, bool withHalo, const Use& use);
-  vtkRadianceResolver::Options GetOptions(const Job& job) const;
+  vtkRadianceResolver::Options GetOptions(const Job& job, std::size_t light) const;
 
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
   const penumbra::ShadowScene* Scene = nullptr;

@@ -42,6 +42,12 @@ std::size_t vtkRadianceResolver::KeptShares::GetBytes() const
   return bytes;
 }
 
+int vtkRadianceResolver::KeptShares::GetCount() const
+{
+  return static_cast<int>(std::count_if(this->Shares.begin(), this->Shares.end(),
+    [](const vtkSmartPointer<vtkVisibilityShare>& share) { return share != nullptr; }));
+}
+
 void vtkRadianceResolver::KeptShares::Release()
 {
   for (vtkSmartPointer<vtkVisibilityShare>& share : this->Shares)
@@ -80,7 +86,7 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Texels = texels;
   this->Shaded = shaded;
   this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
-  this->ShareCount = seen.HasOneHue() ? 1 : 3;
+  this->ShareCount = CountShares(seen, options.Tinted);
   std::string source = vtkRadianceResolveFS;
   vtkShaderProgram::Substitute(
     source, "//Penumbra::Shares::Dec", "#define SHARES " + std::to_string(this->ShareCount));
@@ -118,8 +124,9 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
   {
-    isReady =
-      isReady && this->GetShare(i)->Begin(window, frame, seen, texels, size, options.InBatches);
+    isReady = isReady &&
+      this->GetShare(i)->Begin(
+        window, frame, seen, texels, size, options.InBatches, options.Translucent);
   }
   return isReady;
 }
@@ -151,6 +158,21 @@ bool vtkRadianceResolver::SetSamples(
   return isReady;
 }
 
+bool vtkRadianceResolver::SetTransmittances(const std::vector<glm::dvec3>& transmittances)
+{
+  bool isReady = true;
+  for (int i = 0; i < this->ShareCount; ++i)
+  {
+    std::vector<double> own;
+    for (const glm::dvec3& transmittance : transmittances)
+    {
+      own.push_back(transmittance[i]); // without tint all components are alike
+    }
+    isReady = isReady && this->GetShare(i)->SetTransmittances(own);
+  }
+  return isReady;
+}
+
 glm::dvec3 vtkRadianceResolver::GetChannels(int share) const
 {
   glm::dvec3 channels(this->ShareCount > 1 ? 0.0 : 1.0);
@@ -168,9 +190,15 @@ int vtkRadianceResolver::GetReconstructionHalo()
   return ReconstructionRadius;
 }
 
-std::size_t vtkRadianceResolver::GetKeptBytesPerTexel(const penumbra::LightShape& light)
+int vtkRadianceResolver::CountShares(const penumbra::LightShape& light, bool tinted)
 {
-  return (light.HasOneHue() ? 1 : 3) * sizeof(glm::vec2);
+  return light.HasOneHue() && !tinted ? 1 : 3;
+}
+
+std::size_t vtkRadianceResolver::GetKeptBytesPerTexel(
+  const penumbra::LightShape& light, bool tinted)
+{
+  return static_cast<std::size_t>(CountShares(light, tinted)) * sizeof(glm::vec2);
 }
 
 penumbra::TexelRectangle vtkRadianceResolver::GetMaskRectangle(

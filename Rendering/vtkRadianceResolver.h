@@ -52,6 +52,7 @@ public:
     penumbra::TexelRectangle Stored;                           ///< of the receiver's texels
 
     std::size_t GetBytes() const;
+    int GetCount() const;
     void Release();
     /// Make room for others, too; these are wholly seen.
     bool Extend(const penumbra::TexelRectangle& needed);
@@ -63,6 +64,8 @@ public:
     glm::dvec3 Reflectance{ 1.0 };
     bool Reconstruction = false; ///< shares are filtered across texels
     bool InBatches = false;      ///< CountMasks() will be called, not ResolveMasks()
+    bool Translucent = false;    ///< SetTransmittances() will be called before masks come
+    bool Tinted = false;         ///< and components may differ in what passes
     /// Where shares are kept; they are made here if there are none. Implies InBatches.
     KeptShares* Kept = nullptr;
   };
@@ -82,6 +85,11 @@ public:
    */
   bool SetSamples(const std::vector<penumbra::LightSample>& samples, int previousCount = 0);
 
+  /**
+   * What each translucent surface lets through whose masks will come, in their order.
+   */
+  bool SetTransmittances(const std::vector<glm::dvec3>& transmittances);
+
   ///@{
   /**
    * The texels around those that are resolved whose masks are needed, too; with Reconstruction.
@@ -90,10 +98,13 @@ public:
   static int GetReconstructionHalo();
   ///@}
 
+  ///@{
   /**
-   * The bytes of a texel's shares of a light.
+   * How many shares a light takes that may be tinted on its way, and their bytes for a texel.
    */
-  static std::size_t GetKeptBytesPerTexel(const penumbra::LightShape& light);
+  static int CountShares(const penumbra::LightShape& light, bool tinted);
+  static std::size_t GetKeptBytesPerTexel(const penumbra::LightShape& light, bool tinted);
+  ///@}
 
   /**
    * The texels whose masks are needed to resolve some others.
@@ -165,7 +176,8 @@ private:
   penumbra::TexelRectangle Shaded;
   penumbra::TexelRectangle Stored; ///< of the textures of CountMasks()
   int StripRows = 1;
-  /// The components whose shares differ, each with its own: 3, if a light's cells differ in hue.
+  /// The components whose shares differ, each with its own: 3, if a light's cells differ in hue or
+  /// what it passes is tinted.
   int ShareCount = 1;
   vtkNew<vtkClosedForm> ClosedForm;
   vtkNew<vtkVisibilityShare> Share[3];

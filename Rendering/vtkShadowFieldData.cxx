@@ -54,6 +54,9 @@ void VisitLight(Settings& settings, Visitor&& visit)
   visit("AngularDiameter", settings.AngularDiameter);
 }
 
+constexpr const char* CastShadowArray = "CastShadow";
+constexpr const char* TransmittanceArray = "Transmittance";
+
 /// Of data that were refused as a receiver, why.
 constexpr const char* RefusalArray = "ShadowReceiverProblem";
 
@@ -152,6 +155,35 @@ void vtkShadowFieldData::Write(const penumbra::ReceiverSettings& settings, vtkFi
 void vtkShadowFieldData::Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData)
 {
   VisitLight(settings, Writer{ fieldData });
+}
+
+void vtkShadowFieldData::Write(const penumbra::CasterSettings& settings, vtkFieldData* fieldData)
+{
+  fieldData->RemoveArray(CastShadowArray);
+  fieldData->RemoveArray(TransmittanceArray);
+  Writer write{ fieldData };
+  if (!settings.CastShadow)
+  {
+    write(CastShadowArray, settings.CastShadow);
+  }
+  if (settings.Transmittance)
+  {
+    write(TransmittanceArray, *settings.Transmittance);
+  }
+}
+
+penumbra::CasterSettings vtkShadowFieldData::ReadCaster(vtkFieldData* fieldData)
+{
+  penumbra::CasterSettings settings;
+  if (fieldData && fieldData->HasArray(CastShadowArray))
+  {
+    Reader{ fieldData }(CastShadowArray, settings.CastShadow);
+  }
+  if (fieldData && fieldData->HasArray(TransmittanceArray))
+  {
+    Reader{ fieldData }(TransmittanceArray, settings.Transmittance.emplace());
+  }
+  return settings;
 }
 
 void vtkShadowFieldData::WriteRefusal(const std::string& reason, vtkFieldData* fieldData)

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkShadowFieldData
- * @brief the settings of lights and receivers as field data
+ * @brief the settings of lights, receivers and casters as field data
  *
- * Lights and receivers carry their settings as field data, so that they travel with the data
- * through filters, to a server and into files. Each property of vtkAreaLightSource or
- * vtkShadowReceiver is an array of its own name. So is what vtkShadowReceiver has refused.
+ * Lights, receivers and casters of shadows carry their settings as field data, so that they travel
+ * with the data through filters, to a server and into files. Each property of vtkAreaLightSource,
+ * vtkShadowReceiver or vtkShadowCaster is an array of its own name. So is what vtkShadowReceiver
+ * has refused.
  */
 #ifndef vtkShadowFieldData_h
 #define vtkShadowFieldData_h
@@ -32,6 +33,8 @@ public:
    */
   static void Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData);
   static void Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData);
+  /// What is as it is by default leaves no array.
+  static void Write(const penumbra::CasterSettings& settings, vtkFieldData* fieldData);
   ///@}
 
   ///@{
@@ -52,6 +55,12 @@ public:
   static std::optional<penumbra::ReceiverSettings> ReadReceiver(vtkFieldData* fieldData);
   static std::optional<penumbra::LightSettings> ReadLight(vtkFieldData* fieldData);
   ///@}
+
+  /**
+   * Read how a surface casts shadows; the defaults where the field data (which may be nullptr) say
+   * nothing.
+   */
+  static penumbra::CasterSettings ReadCaster(vtkFieldData* fieldData);
 
   /**
    * The cell array of the radiance that the cells of a light of many cells emit: double, three

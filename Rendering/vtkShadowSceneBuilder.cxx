@@ -300,6 +300,11 @@ void vtkShadowSceneBuilder::AddData(vtkDataObject* data, vtkMatrix4x4* matrix, i
 {
   VisitVisibleLeaves(data, attributes, true,
     [&](vtkPolyData* leaf) { this->AddPolyData(leaf, matrix, roles, name); });
+  for (penumbra::Surface& surface : this->Translucent)
+  {
+    this->Scene.Surfaces.push_back(std::move(surface));
+  }
+  this->Translucent.clear();
 }
 
 void vtkShadowSceneBuilder::AddPolyData(
@@ -416,11 +421,12 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
     return;
   }
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
-  if (polygons->GetNumberOfPolys() == 0 && !receiver)
+  penumbra::Surface surface;
+  surface.Transmittance = this->FindTransmittance(data, name);
+  if (!receiver && (polygons->GetNumberOfPolys() == 0 || !surface.CastsShadow()))
   {
     return;
   }
-  penumbra::Surface surface;
   TransformPoints(polygons, ToGlm(matrix), surface);
   if (receiver)
   {
@@ -434,7 +440,42 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
       penumbra::AllowedCoordinates + ". They are left out.");
   }
   Triangulate(polygons, surface);
+  if (surface.IsTranslucent() && !receiver)
+  {
+    this->AddTranslucent(std::move(surface));
+    return;
+  }
   this->Scene.Surfaces.push_back(std::move(surface));
+}
+
+glm::dvec3 vtkShadowSceneBuilder::FindTransmittance(vtkPolyData* data, const std::string& name)
+{
+  const penumbra::CasterSettings own = vtkShadowFieldData::ReadCaster(data->GetFieldData());
+  const std::string problem = own.FindProblem();
+  if (!problem.empty())
+  {
+    this->ReportError("Surface '" + name + "': " + problem + ". It is taken for opaque.");
+    return glm::dvec3(0.0);
+  }
+  return this->Caster.Overridden(own).GetTransmittance();
+}
+
+void vtkShadowSceneBuilder::AddTranslucent(penumbra::Surface surface)
+{
+  const auto same = std::find_if(this->Translucent.begin(), this->Translucent.end(),
+    [&](const penumbra::Surface& other) { return other.Transmittance == surface.Transmittance; });
+  if (same == this->Translucent.end())
+  {
+    this->Translucent.push_back(std::move(surface));
+    return;
+  }
+  const auto first = static_cast<std::uint32_t>(same->Points.size());
+  same->Points.insert(same->Points.end(), surface.Points.begin(), surface.Points.end());
+  for (const auto& [a, b, c] : surface.Triangles)
+  {
+    same->Triangles.push_back({ first + a, first + b, first + c });
+  }
+  same->Rounding = glm::max(same->Rounding, surface.Rounding);
 }
 
 std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,

@@ -7,7 +7,9 @@
  * Data come in by AddData(), each with the matrix of its actor and with the roles that it may play,
  * and go into a penumbra::ShadowScene: polygons, triangle strips and triangles as surfaces that
  * block light, planar regions of data with receiver settings, or their proxy plane, as receivers,
- * and data with light settings as lights. Lights come first where data may need a proxy plane: they
+ * and data with light settings as lights. Surfaces with caster settings may let light pass: what is
+ * translucent and receives nothing is one surface of the scene for each call of AddData(), which
+ * weakens light once. Lights come first where data may need a proxy plane: they
  * decide how it lies (penumbra::PlaceProxy).
  *
  * Data that make no sense (a curved receiver, a light without area, settings out of range) are
@@ -53,6 +55,12 @@ public:
    */
   void AddData(vtkDataObject* data, vtkMatrix4x4* matrix, int roles, const std::string& name,
     vtkCompositeDataDisplayAttributes* attributes = nullptr);
+
+  /**
+   * How the surfaces of data that come in from now on cast shadows, but for what the data
+   * themselves say. They are opaque by default.
+   */
+  void SetCaster(const penumbra::CasterSettings& caster) { this->Caster = caster; }
 
   ///@{
   /**
@@ -108,6 +116,8 @@ private:
   /// `problem` is what has been reported of the data.
   void AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
     const penumbra::ReceiverSettings* receiver, const std::string& name, std::string problem);
+  glm::dvec3 FindTransmittance(vtkPolyData* data, const std::string& name);
+  void AddTranslucent(penumbra::Surface surface);
   /// The answer is empty or the problem that was reported.
   std::string AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,
     const penumbra::Surface& surface, const std::string& name);
@@ -117,6 +127,8 @@ private:
 
   penumbra::ShadowScene Scene;
   std::vector<penumbra::Light> OtherLights;
+  penumbra::CasterSettings Caster;
+  std::vector<penumbra::Surface> Translucent; ///< of the data that are being added
   bool HasProxy = false;
   std::set<std::string> Messages;
   std::set<std::string> EarlierMessages;

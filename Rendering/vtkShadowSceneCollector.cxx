@@ -9,6 +9,7 @@
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkMatrix4x4.h"
@@ -143,6 +144,49 @@ bool MayReceive(vtkProp* prop, const VisitedPart& part, bool onlyDesignated)
     (!onlyDesignated || (keys && keys->Has(vtkSoftShadowPass::DESIGNATED())));
 }
 
+/// Whether the data are drawn in the colours of their scalars.
+bool HasScalarColours(vtkMapper* mapper, vtkDataObject* data)
+{
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkDataObjectTreeIterator> it;
+    it.TakeReference(tree->NewTreeIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      if (HasScalarColours(mapper, it->GetCurrentDataObject()))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  int isOfCells = 0;
+  return mapper->GetScalarVisibility() &&
+    vtkAbstractMapper::GetAbstractScalars(vtkDataSet::SafeDownCast(data), mapper->GetScalarMode(),
+      mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(),
+      isOfCells) != nullptr;
+}
+
+/// How the part casts shadows, unless its data say otherwise. An opaque one's colour is not looked
+/// at.
+penumbra::CasterSettings GetCaster(vtkProp* prop, const VisitedPart& part)
+{
+  penumbra::CasterSettings caster;
+  caster.CastShadow =
+    vtkSoftShadowPass::GetCastShadow(prop) && vtkSoftShadowPass::GetCastShadow(part.Actor);
+  vtkProperty* property = part.Actor->GetProperty();
+  if (property->GetOpacity() < 1.0)
+  {
+    glm::dvec3 colour(1.0);
+    if (!part.Actor->GetTexture() && !HasScalarColours(GetFullMapper(part.Actor), part.Data))
+    {
+      property->GetDiffuseColor(&colour.x);
+    }
+    caster.Transmittance = penumbra::GetTransmittance(property->GetOpacity(), colour);
+  }
+  return caster;
+}
+
 /// How error messages name an actor.
 std::string Describe(vtkActor* actor)
 {
@@ -184,11 +228,17 @@ void AppendData(std::vector<std::uint64_t>& signature, vtkDataObject* data,
 }
 
 /// Everything about the part that a bake depends on.
-void AppendPart(std::vector<std::uint64_t>& signature, const VisitedPart& part, bool mayReceive)
+void AppendPart(std::vector<std::uint64_t>& signature, const VisitedPart& part, bool mayReceive,
+  const penumbra::CasterSettings& caster)
 {
   Append(signature, part.Actor);
   Append(signature, part.IsSurface);
   Append(signature, mayReceive);
+  const glm::dvec3 passing = caster.GetTransmittance();
+  for (int i = 0; i < 3 && part.IsSurface; ++i)
+  {
+    Append(signature, passing[i]);
+  }
   AppendData(signature, part.Data, part.Attributes);
   for (int i = 0; part.Matrix && i < 16; ++i)
   {
@@ -208,7 +258,8 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
     [&](vtkProp* prop, const VisitedPart& visited)
     {
       Part& part = parts.emplace_back();
-      AppendPart(part.Seen, visited, MayReceive(prop, visited, onlyDesignated));
+      AppendPart(
+        part.Seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
       part.Prop = prop;
     });
   if (std::equal(parts.begin(), parts.end(), this->Parts.begin(), this->Parts.end(),
@@ -275,6 +326,7 @@ void vtkShadowSceneCollector::Build(
         const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
           (MayReceive(prop, visited, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
         part.Builder->SetLights(lights);
+        part.Builder->SetCaster(GetCaster(prop, visited));
         part.Builder->AddData(
           visited.Data, visited.Matrix, roles, Describe(visited.Actor), visited.Attributes);
         part.IsNew = false;

@@ -5,8 +5,11 @@
  * @brief finds the lights, receivers and occluders among a renderer's props
  *
  * All visible props count, also those outside the camera's view: their shadows may fall into it.
- * Update() remembers what it saw, so that it can tell whether anything that a bake depends on has
- * changed since. Surfaces of actors that have not changed are the same penumbra::SharedSurface.
+ * Surfaces block light, or weaken it by the opacity and the diffuse colour of their actor
+ * (penumbra::GetTransmittance; coloured by scalars or a texture: by the opacity alone), unless
+ * vtkSoftShadowPass::SetCastShadow() or their data say otherwise. Update() remembers what it saw,
+ * so that it can tell whether anything that a bake depends on has changed since. Surfaces of actors
+ * that have not changed are the same penumbra::SharedSurface.
  */
 #ifndef vtkShadowSceneCollector_h
 #define vtkShadowSceneCollector_h

@@ -44,6 +44,7 @@
 
 vtkStandardNewMacro(vtkSoftShadowPass);
 vtkInformationKeyMacro(vtkSoftShadowPass, DESIGNATED, Integer);
+vtkInformationKeyMacro(vtkSoftShadowPass, CASTS_NO_SHADOW, Integer);
 vtkInformationKeyMacro(vtkSoftShadowPass, RECEIVER_INDEX, Integer);
 
 namespace
@@ -66,6 +67,16 @@ struct ShownProp
     return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
   }
 };
+
+vtkInformation* GetOrMakeKeys(vtkProp* prop)
+{
+  if (!prop->GetPropertyKeys())
+  {
+    vtkNew<vtkInformation> keys;
+    prop->SetPropertyKeys(keys);
+  }
+  return prop->GetPropertyKeys();
+}
 
 /// The largest factor that the diffuse shade of receivers may have.
 double GetLargestFactor(
@@ -271,13 +282,7 @@ vtkRenderPass* vtkSoftShadowPass::GetDelegatePass()
 
 void vtkSoftShadowPass::Designate(vtkProp* prop, int shading)
 {
-  vtkSmartPointer<vtkInformation> keys = prop->GetPropertyKeys();
-  if (!keys)
-  {
-    keys = vtkSmartPointer<vtkInformation>::New();
-    prop->SetPropertyKeys(keys);
-  }
-  keys->Set(DESIGNATED(), shading);
+  GetOrMakeKeys(prop)->Set(DESIGNATED(), shading);
 }
 
 void vtkSoftShadowPass::Undesignate(vtkProp* prop)
@@ -286,6 +291,24 @@ void vtkSoftShadowPass::Undesignate(vtkProp* prop)
   {
     keys->Remove(DESIGNATED());
   }
+}
+
+void vtkSoftShadowPass::SetCastShadow(vtkProp* prop, bool cast)
+{
+  if (!cast)
+  {
+    GetOrMakeKeys(prop)->Set(CASTS_NO_SHADOW(), 1);
+  }
+  else if (vtkInformation* keys = prop->GetPropertyKeys())
+  {
+    keys->Remove(CASTS_NO_SHADOW());
+  }
+}
+
+bool vtkSoftShadowPass::GetCastShadow(vtkProp* prop)
+{
+  vtkInformation* keys = prop->GetPropertyKeys();
+  return !keys || !keys->Has(CASTS_NO_SHADOW());
 }
 
 void vtkSoftShadowPass::Render(const vtkRenderState* s)
@@ -516,14 +539,7 @@ std::vector<vtkProp*> vtkSoftShadowPass::MarkReceivers()
     {
       continue; // drawn plain
     }
-    vtkInformation* keys = shown.Prop->GetPropertyKeys();
-    if (!keys)
-    {
-      vtkNew<vtkInformation> newKeys;
-      shown.Prop->SetPropertyKeys(newKeys);
-      keys = newKeys;
-    }
-    keys->Set(RECEIVER_INDEX(), static_cast<int>(i));
+    GetOrMakeKeys(shown.Prop)->Set(RECEIVER_INDEX(), static_cast<int>(i));
     props.push_back(shown.Prop);
   }
   return props;

@@ -25,7 +25,10 @@
  *
  * Wherever there is no light, nothing is in shadow: receivers are then drawn plain. Lights shine
  * while they are visible, however they are drawn. Occluders are what is drawn as surfaces: actors
- * in wireframe or points, and wholly transparent ones, cast no shadow.
+ * in wireframe or points, and wholly transparent ones, cast no shadow. Translucent ones weaken
+ * light by their opacity o: 1 - o of it passes, tinted by the actor's diffuse colour unless scalars
+ * or a texture colour it. An actor weakens a ray once, also where the ray enters and leaves it.
+ * What its data say (vtkShadowCaster) goes before that.
  *
  * @sa vtkAreaLightSource, vtkShadowReceiver, vtkRadianceMap
  */
@@ -143,6 +146,16 @@ public:
   static void Designate(vtkProp* prop, int shading);
   static void Undesignate(vtkProp* prop);
   static vtkInformationIntegerKey* DESIGNATED();
+  ///@}
+
+  ///@{
+  /**
+   * Whether a prop casts shadows. Default is on. It is written into the prop's property keys, for
+   * all passes.
+   */
+  static void SetCastShadow(vtkProp* prop, bool cast);
+  static bool GetCastShadow(vtkProp* prop);
+  static vtkInformationIntegerKey* CASTS_NO_SHADOW();
   ///@}
 
   /**

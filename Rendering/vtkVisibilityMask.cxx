@@ -64,19 +64,21 @@ int SetProjections(vtkShaderProgram* program,
 vtkVisibilityMask::vtkVisibilityMask() = default;
 vtkVisibilityMask::~vtkVisibilityMask() = default;
 
-int vtkVisibilityMask::GetMaximumSamples(vtkOpenGLRenderWindow* window)
+int vtkVisibilityMask::GetMaximumSamples(vtkOpenGLRenderWindow* window, std::size_t sets)
 {
   GLint layers = 0;
   window->GetState()->vtkglGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-  return layers * SamplesPerLayer;
+  return layers / static_cast<int>(sets) * SamplesPerLayer;
 }
 
-bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2& size, int samples)
+bool vtkVisibilityMask::Allocate(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, int samples, std::size_t sets)
 {
   this->ReleaseGraphicsResources();
   this->Window = window;
   this->Size = size;
-  const int layers = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
+  this->Sets = sets;
+  const int layers = static_cast<int>(sets) * ((samples + SamplesPerLayer - 1) / SamplesPerLayer);
   penumbra::ForgetOpenGLErrors();
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
@@ -90,7 +92,10 @@ bool vtkVisibilityMask::Allocate(vtkOpenGLRenderWindow* window, const glm::ivec2
   if (penumbra::HasOpenGLError())
   {
     vtkErrorMacro("OpenGL refused a mask of " << size.x << " x " << size.y << " texels for "
-                                              << samples << " samples; ask for fewer of either.");
+                                              << samples << " samples of " << sets
+                                              << " sets of occluders (one for all that are "
+                                                 "opaque, one for each that is translucent); "
+                                                 "ask for fewer of any.");
     this->ReleaseGraphicsResources();
     return false;
   }
@@ -125,13 +130,16 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   }
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   const ScopedMaskState maskState;
-  for (std::size_t first = 0; first < projections.size(); first += SamplesPerLayer)
+  GLint layer = 0;
+  for (std::size_t set = 0; set < this->Sets; ++set)
   {
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texture, 0,
-      static_cast<GLint>(first / SamplesPerLayer));
-    const GLuint unblocked[4] = { 0, 0, 0, 0 };
-    glClearBufferuiv(GL_COLOR, 0, unblocked);
-    occluders->Draw(program, SetProjections(program, projections, first));
+    for (std::size_t first = 0; first < projections.size(); first += SamplesPerLayer)
+    {
+      glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texture, 0, layer++);
+      const GLuint unblocked[4] = { 0, 0, 0, 0 };
+      glClearBufferuiv(GL_COLOR, 0, unblocked);
+      occluders->Draw(set, program, SetProjections(program, projections, first));
+    }
   }
   return true;
 }
@@ -156,4 +164,5 @@ void vtkVisibilityMask::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
+  os << indent << "Sets: " << this->Sets << "\n";
 }

@@ -20,6 +20,8 @@
 #include "vtkVisibilityMask.h"
 #include "vtkVisibilityShareFS.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 vtkStandardNewMacro(vtkVisibilityShare);
@@ -57,16 +59,20 @@ std::vector<int> vtkVisibilityShare::GetBatchEnds(int samples)
 
 bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
   const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
-  bool inBatches)
+  bool inBatches, bool translucent)
 {
   this->Window = window;
   this->Frame = frame;
   this->Texels = texels;
+  this->IsTranslucent = translucent;
+  this->TranslucentCount = 0;
   this->HasCells = seen.GetEmission() == penumbra::Emission::Cells;
   this->Power = this->HasCells ? GetPower(seen) : glm::dvec3(0.0);
   std::string source = penumbra::WithReceiverTexels(vtkVisibilityShareFS);
   vtkShaderProgram::Substitute(source, "//Penumbra::Emission::Dec",
     "#define EMISSION " + std::to_string(static_cast<int>(seen.GetEmission())));
+  vtkShaderProgram::Substitute(source, "//Penumbra::Translucent::Dec",
+    std::string("#define TRANSLUCENT ") + (translucent ? "1" : "0"));
   this->Program = penumbra::ReadyFullScreenProgram(window, source.c_str());
   if (!this->Program)
   {
@@ -116,6 +122,24 @@ bool vtkVisibilityShare::SetSamples(
   return true;
 }
 
+bool vtkVisibilityShare::SetTransmittances(const std::vector<double>& transmittances)
+{
+  this->TranslucentCount = static_cast<int>(transmittances.size());
+  std::vector<glm::vec4> values;
+  for (const double transmittance : transmittances)
+  {
+    values.emplace_back(transmittance);
+  }
+  if (!values.empty() &&
+    !this->UploadBuffer(this->TransmittanceBuffer, this->Transmittances, values))
+  {
+    vtkErrorMacro("OpenGL refused a buffer of " << values.size()
+                                                << " transmittances; hide translucent surfaces.");
+    return false;
+  }
+  return true;
+}
+
 bool vtkVisibilityShare::UploadBuffer(
   vtkOpenGLBufferObject* buffer, vtkTextureObject* texture, const std::vector<glm::vec4>& values)
 {
@@ -138,6 +162,13 @@ void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskF
     this->HasCells ? this->Cells->GetHandle() : this->Samples->GetHandle());
   const penumbra::ScopedTexture previous(state, program, "previous", GL_TEXTURE_2D,
     this->PreviousCount > 0 ? this->Textures[1 - this->Current]->GetHandle() : 0);
+  std::optional<penumbra::ScopedTexture> transmittances;
+  if (this->IsTranslucent)
+  {
+    transmittances.emplace(state, program, "transmittances", GL_TEXTURE_BUFFER,
+      this->TranslucentCount > 0 ? this->Transmittances->GetHandle() : 0);
+    program->SetUniformi("translucentCount", this->TranslucentCount);
+  }
 
   program->SetUniform2i("maskFirstTexel", &maskFirstTexel.x);
   program->SetUniformi("sampleCount", this->SampleCount);
@@ -185,6 +216,8 @@ void vtkVisibilityShare::ReleaseSamples()
     this->SampleBuffer->ReleaseGraphicsResources();
     this->Cells->ReleaseGraphicsResources(this->Window);
     this->CellBuffer->ReleaseGraphicsResources();
+    this->Transmittances->ReleaseGraphicsResources(this->Window);
+    this->TransmittanceBuffer->ReleaseGraphicsResources();
   }
 }
 
@@ -201,4 +234,5 @@ void vtkVisibilityShare::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Samples: " << this->SampleCount << "\n";
   os << indent << "PreviousCount: " << this->PreviousCount << "\n";
+  os << indent << "Translucent: " << this->TranslucentCount << "\n";
 }

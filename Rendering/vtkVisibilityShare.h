@@ -6,7 +6,8 @@
  *
  * Of one light on one receiver: Begin(), then SetSamples() and Count() for the rows whose masks
  * have been drawn (vtkVisibilityShareFS.glsl). More samples may follow: the answer is then, to the
- * bit, that of all samples at once.
+ * bit, that of all samples at once. Where translucent surfaces weaken the light, samples are
+ * weighed by what these let through, by another variant of the shader.
  */
 #ifndef vtkVisibilityShare_h
 #define vtkVisibilityShare_h
@@ -43,11 +44,12 @@ public:
   /**
    * Take up a light on a receiver of the given texels: `seen` is its part in front of the receiver.
    * The textures have the given size: that of all rectangles, if the samples will come in batches.
-   * False, after vtkErrorMacro, if OpenGL refuses.
+   * With `translucent`, SetTransmittances() will be called. False, after vtkErrorMacro, if OpenGL
+   * refuses.
    */
   bool Begin(vtkOpenGLRenderWindow* window, const penumbra::ReceiverFrame& frame,
     const penumbra::LightShape& seen, const glm::ivec2& texels, const glm::ivec2& size,
-    bool inBatches);
+    bool inBatches, bool translucent);
 
   /**
    * The samples. The first half (the greater, if their number is odd) and the second must each be
@@ -58,6 +60,12 @@ public:
    */
   bool SetSamples(const std::vector<penumbra::LightSample>& samples, const glm::dvec3& channels,
     int previousCount);
+
+  /**
+   * What the translucent surfaces let through whose masks will come, in their order, of the light
+   * that this share is of. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool SetTransmittances(const std::vector<double>& transmittances);
 
   /**
    * Count a rectangle of the receiver's texels into the texture, where the receiver's texel
@@ -110,12 +118,14 @@ private:
   penumbra::ReceiverFrame Frame;
   glm::ivec2 Texels{ 1 };
   bool HasCells = false;
+  bool IsTranslucent = false;
+  int TranslucentCount = 0;
   glm::dvec3 Power{ 0.0 }; ///< of the light's cells
   int Components = 2;
   int SampleCount = 0;
   int PreviousCount = 0;
-  vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer;
-  vtkNew<vtkTextureObject> Samples, Cells;
+  vtkNew<vtkOpenGLBufferObject> SampleBuffer, CellBuffer, TransmittanceBuffer;
+  vtkNew<vtkTextureObject> Samples, Cells, Transmittances;
   /// The one that is counted into, and the answer of earlier samples.
   vtkNew<vtkStageTexture> Textures[2];
   int Current = 0; ///< the former

@@ -19,7 +19,7 @@ def build():
         SamplingPattern="Correlated Multi-Jittered", Seed=5, Reflectance=[0.9, 0.8, 0.7],
         AmbientRadiance=[0.1, 0.05, 0.15], Side="Front", SolidAnglePerSample=0.001, ErrorTolerance=0.01,
         MaximumLightSamples=200, Reconstruction=0, ProxyPlane=1, ProxyPlaneMode="Given", ProxyOrigin=[0.0, 0.0, -0.1],
-        ProxyNormal=[0.1, 0.0, 1.0])
+        ProxyNormal=[0.1, 0.0, 1.0], CastShadow=0)
     light = simple.AreaLight(registrationName="Lamp")
     change(
         light, Shape="Triangle", Origin=[1, -1, 6], Point1=[1, 1, 6], Point2=[3, -1, 6], Radiance=[8.0, 6.0, 9.0],
@@ -28,8 +28,12 @@ def build():
     change(sun, Shape="Directional", Origin=[0, 0, 5], Point1=[1, 0, 0], AngularDiameter=4.0, Radiance=[0.2, 0.3, 0.4])
     window = make_window()
     sphere = simple.Sphere(registrationName="Ball", Center=[0, 0, 1.5], ThetaResolution=40, PhiResolution=40)
-    simple.RadianceMap(registrationName="Map", Receivers=[receiver], Occluders=[sphere], Lights=[light, sun, window])
-    show(receiver, sphere, light, sun, window)
+    caster = simple.ShadowCaster(registrationName="Caster", Input=sphere)
+    change(caster, UseTransmittance=1, Transmittance=[0.2, 0.6, 0.4])
+    hidden = simple.ShadowCaster(registrationName="Hidden", Input=sphere)
+    change(hidden, CastShadow=0)
+    simple.RadianceMap(registrationName="Map", Receivers=[receiver], Occluders=[caster, hidden], Lights=[light, sun, window])
+    show(receiver, caster, light, sun, window)
 
 
 def make_window():
@@ -119,7 +123,7 @@ def check_states():
     path = output_path("TestState.pvsm")
     simple.SaveState(path)
     python = smstate.get_state()
-    simple.Delete(simple.FindSource("Ball"))
+    simple.Hide(simple.FindSource("Caster"), the_view())
     checks.check((picture(the_view()) != wanted[1]).any(), "without the ball, the picture is another one")
 
     reset()

@@ -350,14 +350,16 @@ def check_bakes():
     screenshot(shown.view, (800, 600))
     check_count(1, "a large screenshot")
     shown.receiver.DiffuseColor = [0.5, 0.5, 0.9]
-    shown.occluder.Opacity = 0.5
+    shown.occluder.DiffuseColor = [0.9, 0.5, 0.5]
     shown.receiver.ShadowShading = "Radiance"
-    check_count(1, "changes of colour, opacity, shading")
+    check_count(1, "changes of colour and shading")
     scene.light.Radiance = [2, 2, 2]
     check_count(2, "a change of the light")
     shown.occluder.Position = [0.5, 0, 0]
     check_count(3, "a move of the occluder")
-    check_count(3, "one more frame")
+    shown.occluder.Opacity = 0.5
+    check_count(4, "the occluder has become translucent")
+    check_count(4, "one more frame")
 
 
 def screenshot(view, resolution):
