@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 vtkStandardNewMacro(vtkRadianceTexture);
@@ -24,9 +23,6 @@ vtkStandardNewMacro(vtkRadianceTexture);
 namespace
 {
 
-/// Around each region of an atlas: enough for MipLevels.
-constexpr int GutterTexels = 8;
-constexpr int MipLevels = 3;
 constexpr int AllMipLevels = 1000; // OpenGL's own default
 
 /// What graphics processors have offered for decades.
@@ -62,70 +58,32 @@ vtkRadianceTexture::vtkRadianceTexture()
 
 vtkRadianceTexture::~vtkRadianceTexture() = default;
 
-bool vtkRadianceTexture::PlaceRegions(const std::vector<glm::ivec2>& sizes, int largestSide)
-{
-  // Shelves: the regions side by side in rows, the highest first, in a texture that is about
-  // square.
-  this->Gutter = sizes.size() > 1 ? GutterTexels : 0;
-  std::vector<std::size_t> order(sizes.size());
-  std::iota(order.begin(), order.end(), std::size_t{ 0 });
-  std::stable_sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return sizes[a].y > sizes[b].y; });
-  double area = 0.0;
-  int width = 0;
-  for (const glm::ivec2& size : sizes)
-  {
-    const glm::ivec2 padded = size + 2 * this->Gutter;
-    area += static_cast<double>(padded.x) * padded.y;
-    width = std::max(width, padded.x);
-  }
-  width = std::max(width, std::min(static_cast<int>(std::ceil(std::sqrt(area))), largestSide));
-
-  this->Regions.assign(sizes.size(), Region());
-  glm::ivec2 place(0);
-  int shelf = 0;
-  int used = 0; // a single receiver fills its texture: vtkSoftShadowFS.glsl relies on it
-  for (const std::size_t i : order)
-  {
-    const glm::ivec2 padded = sizes[i] + 2 * this->Gutter;
-    if (place.x + padded.x > width)
-    {
-      place = { 0, place.y + shelf };
-      shelf = 0;
-    }
-    this->Regions[i] = { place + this->Gutter, sizes[i] };
-    place.x += padded.x;
-    used = std::max(used, place.x);
-    shelf = std::max(shelf, padded.y);
-  }
-  this->Size = { used, place.y + shelf };
-  return this->Size.x <= largestSide && this->Size.y <= largestSide;
-}
-
 bool vtkRadianceTexture::Allocate(
   vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance)
 {
   this->ReleaseGraphicsResources();
   this->Window = window;
   const int largestSide = vtkTextureObject::GetMaximumTextureSize(window);
-  if (!this->PlaceRegions(sizes, largestSide))
+  this->Layout = penumbra::AtlasLayout(sizes, largestSide);
+  const glm::ivec2 size = this->Layout.Size;
+  if (size.x > largestSide || size.y > largestSide)
   {
-    vtkErrorMacro("The " << sizes.size() << " receivers of a surface need a texture of "
-                         << this->Size.x << " x " << this->Size.y << " texels; OpenGL allows "
-                         << largestSide << " a side. Use a larger TexelSize.");
+    vtkErrorMacro("The " << sizes.size() << " receivers of a surface need a texture of " << size.x
+                         << " x " << size.y << " texels; OpenGL allows " << largestSide
+                         << " a side. Use a larger TexelSize.");
     return false;
   }
-  if (!penumbra::AllocateTexture(this->Irradiance, window, this->Size, 4, VTK_FLOAT) ||
-    (withVariance && !penumbra::AllocateTexture(this->Variance, window, this->Size, 1, VTK_FLOAT)))
+  if (!penumbra::AllocateTexture(this->Irradiance, window, size, 4, VTK_FLOAT) ||
+    (withVariance && !penumbra::AllocateTexture(this->Variance, window, size, 1, VTK_FLOAT)))
   {
-    vtkErrorMacro("OpenGL refused a texture of " << this->Size.x << " x " << this->Size.y
+    vtkErrorMacro("OpenGL refused a texture of " << size.x << " x " << size.y
                                                  << " texels. Use a larger TexelSize.");
     this->ReleaseGraphicsResources();
     return false;
   }
   this->HasVariance = withVariance;
   // The gutter around it is cut off.
-  this->Clear({ glm::ivec2(0), this->Size }, penumbra::WholeRectangle(this->Size));
+  this->Clear({ glm::ivec2(0), size }, penumbra::WholeRectangle(size));
   return true;
 }
 
@@ -164,13 +122,13 @@ void vtkRadianceTexture::BindAsTarget(
   state->SetEnumState(GL_BLEND, add);
   state->vtkglBlendEquation(GL_FUNC_ADD);
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
-  state->vtkglViewport(0, 0, this->Size.x, this->Size.y);
+  state->vtkglViewport(0, 0, this->Layout.Size.x, this->Layout.Size.y);
   state->vtkglEnable(GL_SCISSOR_TEST);
   penumbra::TexelRectangle padded = rectangle;
   for (int axis = 0; axis < 2; ++axis)
   {
-    padded.Low[axis] -= rectangle.Low[axis] == 0 ? this->Gutter : 0;
-    padded.High[axis] += rectangle.High[axis] == region.Size[axis] ? this->Gutter : 0;
+    padded.Low[axis] -= rectangle.Low[axis] == 0 ? this->Layout.Gutter : 0;
+    padded.High[axis] += rectangle.High[axis] == region.Size[axis] ? this->Layout.Gutter : 0;
   }
   const glm::ivec2 origin = region.Origin + padded.Low, size = padded.GetSize();
   state->vtkglScissor(origin.x, origin.y, size.x, size.y);
@@ -224,9 +182,10 @@ bool vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture)
   texture->SetMinificationFilter(
     anisotropy > 1 ? vtkTextureObject::LinearMipmapLinear : vtkTextureObject::LinearMipmapNearest);
   // An atlas has none: a long footprint would reach past the gutter.
-  texture->SetMaximumAnisotropicFiltering(this->Gutter > 0 ? 1.0f : static_cast<float>(anisotropy));
+  texture->SetMaximumAnisotropicFiltering(
+    this->Layout.Gutter > 0 ? 1.0f : static_cast<float>(anisotropy));
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
-  texture->SetMaxLevel(this->Gutter > 0 ? MipLevels : AllMipLevels);
+  texture->SetMaxLevel(this->Layout.Gutter > 0 ? penumbra::AtlasLayout::MipLevels : AllMipLevels);
   texture->Activate();
   texture->SendParameters();
   glGenerateMipmap(GL_TEXTURE_2D);
@@ -237,7 +196,7 @@ bool vtkRadianceTexture::GenerateMipmaps(vtkTextureObject* texture)
     texture->SetMinificationFilter(vtkTextureObject::Nearest);
     texture->SendParameters();
     vtkErrorMacro("OpenGL refused the mip levels of a texture of "
-      << this->Size.x << " x " << this->Size.y << " texels. Use a larger TexelSize.");
+      << this->Layout.Size.x << " x " << this->Layout.Size.y << " texels. Use a larger TexelSize.");
   }
   texture->Deactivate();
   return isDone;
@@ -247,7 +206,8 @@ void vtkRadianceTexture::ReleaseMipmaps()
 {
   // OpenGL frees no single levels. Without room for a copy, they stay.
   vtkSmartPointer<vtkTextureObject> copy = MakeTexture();
-  if (!this->HasMipmaps || !penumbra::AllocateTexture(copy, this->Window, this->Size, 4, VTK_FLOAT))
+  if (!this->HasMipmaps ||
+    !penumbra::AllocateTexture(copy, this->Window, this->Layout.Size, 4, VTK_FLOAT))
   {
     copy->ReleaseGraphicsResources(this->Window);
     return;
@@ -257,7 +217,7 @@ void vtkRadianceTexture::ReleaseMipmaps()
   this->Framebuffer->AddColorAttachment(0, this->Irradiance);
   this->Framebuffer->ActivateReadBuffer(0);
   copy->Activate();
-  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, this->Size.x, this->Size.y);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, this->Layout.Size.x, this->Layout.Size.y);
   copy->Deactivate();
   this->Framebuffer->RemoveColorAttachment(0);
   this->Irradiance->ReleaseGraphicsResources(this->Window);
@@ -306,29 +266,13 @@ vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 
 vtkRadianceTexture::Region vtkRadianceTexture::GetPaddedRegion(std::size_t region) const
 {
-  const Region& inner = this->Regions[region];
-  return { inner.Origin - this->Gutter, inner.Size + 2 * this->Gutter };
+  const Region& inner = this->Layout.Regions[region];
+  return { inner.Origin - this->Layout.Gutter, inner.Size + 2 * this->Layout.Gutter };
 }
 
 std::size_t vtkRadianceTexture::CountTexels(bool withMipmaps) const
 {
-  if (this->Size == glm::ivec2(0))
-  {
-    return 0;
-  }
-  std::size_t texels = 0;
-  const int levels = !withMipmaps ? 0 : this->Gutter > 0 ? MipLevels : AllMipLevels;
-  glm::ivec2 size = this->Size;
-  for (int level = 0; level <= levels; ++level)
-  {
-    texels += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-    if (size == glm::ivec2(1))
-    {
-      break;
-    }
-    size = glm::max(size / 2, glm::ivec2(1));
-  }
-  return texels;
+  return this->Layout.CountTexels(withMipmaps);
 }
 
 std::size_t vtkRadianceTexture::GetBytes() const
@@ -348,8 +292,7 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
     this->Framebuffer->ReleaseGraphicsResources(this->Window);
   }
   this->Irradiance = MakeTexture(); // its filter may be that of mip levels
-  this->Regions.clear();
-  this->Size = glm::ivec2(0);
+  this->Layout = {};
   this->HasVariance = false;
   this->HasMipmaps = false;
 }
@@ -357,7 +300,7 @@ void vtkRadianceTexture::ReleaseGraphicsResources()
 void vtkRadianceTexture::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Size: " << this->Size.x << " x " << this->Size.y << "\n";
-  os << indent << "Regions: " << this->Regions.size() << "\n";
+  os << indent << "Size: " << this->Layout.Size.x << " x " << this->Layout.Size.y << "\n";
+  os << indent << "Regions: " << this->Layout.Regions.size() << "\n";
   os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
 }

@@ -8,13 +8,12 @@
  * irradiance over pi from all lights (three components), what is blocked of it (in the mean of the
  * components), and the variance of the mean of the three once they are reflected: 20 bytes.
  *
- * Around each region of an atlas of several, GutterTexels repeat its border, so that mip levels up
- * to log2(GutterTexels) never mix two receivers; a texture with one receiver has no gutter and all
- * levels.
+ * The gutter around each region of an atlas of several (penumbra::AtlasLayout) repeats its border.
  */
 #ifndef vtkRadianceTexture_h
 #define vtkRadianceTexture_h
 
+#include "AtlasLayout.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "vtkNew.h"                  // for vtkNew
 #include "vtkObject.h"
@@ -35,12 +34,7 @@ public:
   vtkTypeMacro(vtkRadianceTexture, vtkObject)
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Texels of a receiver: the first one and how many, without the gutter.
-  struct Region
-  {
-    glm::ivec2 Origin{ 0 };
-    glm::ivec2 Size{ 1 };
-  };
+  using Region = penumbra::AtlasRegion;
 
   /// What Download() gives of a region, i (along EdgeX) fastest.
   struct Texels
@@ -64,7 +58,7 @@ public:
   /**
    * The receivers' places, in the order of their sizes in Allocate().
    */
-  const std::vector<Region>& GetRegions() const { return this->Regions; }
+  const std::vector<Region>& GetRegions() const { return this->Layout.Regions; }
 
   /**
    * A region with the gutter around it.
@@ -74,7 +68,7 @@ public:
   /**
    * Width and height of the whole texture.
    */
-  const glm::ivec2& GetSize() const { return this->Size; }
+  const glm::ivec2& GetSize() const { return this->Layout.Size; }
 
   /**
    * Make a rectangle of a region's texels, with the gutter beyond what of the region's border is in
@@ -159,15 +153,11 @@ private:
   vtkRadianceTexture(const vtkRadianceTexture&) = delete;
   void operator=(const vtkRadianceTexture&) = delete;
 
-  bool PlaceRegions(const std::vector<glm::ivec2>& sizes, int largestSide);
-
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkSmartPointer<vtkTextureObject> Irradiance;
   vtkSmartPointer<vtkTextureObject> Variance;
   vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
-  std::vector<Region> Regions;
-  glm::ivec2 Size{ 0 };
-  int Gutter = 0;
+  penumbra::AtlasLayout Layout;
   int MaximumAnisotropy = 0;
   bool HasVariance = false;
   bool HasMipmaps = false;
