@@ -35,7 +35,8 @@ bool IsSameReceiver(const vtkBakedProp::Entry& a, const vtkBakedProp::Entry& b)
 
 /// Lets masks and textures stay below n/8 + 24 bytes a texel, as do the textures alone once the
 /// masks are gone: 16 of irradiance, a third of that for what is shown, and what is kept.
-void LimitBytes(const vtkBakedProp::Entry& entry, vtkRadianceBaker::Part& part)
+void LimitBytes(
+  const vtkBakedProp::Entry& entry, double keptBytesPerTexel, vtkRadianceBaker::Part& part)
 {
   int samples = 0;
   for (const penumbra::Light& light : entry.Plan.Lights)
@@ -46,8 +47,27 @@ void LimitBytes(const vtkBakedProp::Entry& entry, vtkRadianceBaker::Part& part)
   constexpr double Irradiance = 16.0, Shown = 16.0 / 3.0;
   const double allowed = samples / 8.0 + 24.0;
   const double texels = entry.Settings.GetBakedTexels();
-  part.KeptBytes = static_cast<std::size_t>(std::max(allowed - Irradiance - Shown, 0.0) * texels);
+  const double kept = std::clamp(allowed - Irradiance - Shown, 0.0, keptBytesPerTexel);
+  part.KeptBytes = static_cast<std::size_t>(kept * texels);
   part.MaskAndKeptBytes = static_cast<std::size_t>((allowed - Irradiance) * texels);
+}
+
+std::size_t CountKeptBytes(const vtkBakedProp::Entry& entry)
+{
+  std::size_t bytes = 0;
+  for (const vtkRadianceBaker::KeptLight& kept : entry.Kept)
+  {
+    bytes += kept.Shares.GetBytes();
+  }
+  return bytes;
+}
+
+void ReleaseKept(vtkBakedProp::Entry& entry)
+{
+  for (vtkRadianceBaker::KeptLight& kept : entry.Kept)
+  {
+    kept.Shares.Release();
+  }
 }
 
 /// The receiver's texels that some of its finer ones are a part of, by a tent that reaches to the
@@ -103,6 +123,27 @@ penumbra::TexelRectangle TakeTile(penumbra::TexelRectangle& rectangle, int side)
 vtkBakedProp::vtkBakedProp() = default;
 vtkBakedProp::~vtkBakedProp() = default;
 
+int vtkBakedProp::CountVertices(const penumbra::ReceiverPlan& plan,
+  const penumbra::ReceiverSettings& settings, bool showsRadiance)
+{
+  // Where nothing is blocked, shadows are 1 at any vertex.
+  return penumbra::IsUnshadowed(plan) && !showsRadiance
+    ? 2
+    : penumbra::CountShadingVertices(plan, settings);
+}
+
+void vtkBakedProp::SetKeptBytesPerTexel(double bytes)
+{
+  this->KeptBytesPerTexel = bytes;
+  for (Entry& entry : this->Entries)
+  {
+    if (CountKeptBytes(entry) > bytes * entry.Settings.GetBakedTexels())
+    {
+      ReleaseKept(entry);
+    }
+  }
+}
+
 vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   const penumbra::ShadowScene& scene, const std::vector<std::size_t>& receivers,
   const std::vector<penumbra::ReceiverPlan>& plans, vtkOpenGLRenderWindow* window,
@@ -115,12 +156,8 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
     const penumbra::Receiver& receiver = scene.Receivers[i];
     Entry entry{ i, scene.Surfaces[receiver.Surface], receiver, plans[i], receiver.Base, 0, {}, {},
       {} };
-    const bool isUnshadowed = penumbra::IsUnshadowed(entry.Plan);
-    hasShadows = hasShadows || !isUnshadowed;
-    // Where nothing is blocked, shadows are 1 at any vertex.
-    entry.Vertices = isUnshadowed && !showsRadiance
-      ? 2
-      : penumbra::CountShadingVertices(entry.Plan, receiver.Settings);
+    hasShadows = hasShadows || !penumbra::IsUnshadowed(entry.Plan);
+    entry.Vertices = CountVertices(entry.Plan, receiver.Settings, showsRadiance);
     entry.Report = vtkRadianceBaker::MakeReport(entry.Plan, scene, i);
     entries.push_back(std::move(entry));
   }
@@ -241,7 +278,7 @@ bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t regio
     {
       entry.Kept.resize(entry.Plan.Lights.size());
       part.Kept = &entry.Kept;
-      LimitBytes(entry, part);
+      LimitBytes(entry, this->KeptBytesPerTexel, part);
     }
   }
   entry.Report =
@@ -347,10 +384,7 @@ std::size_t vtkBakedProp::GetBytes() const
   std::size_t bytes = this->Texture->GetBytes();
   for (const Entry& entry : this->Entries)
   {
-    for (const vtkRadianceBaker::KeptLight& kept : entry.Kept)
-    {
-      bytes += kept.Shares.GetBytes();
-    }
+    bytes += CountKeptBytes(entry);
   }
   return bytes;
 }
@@ -359,10 +393,7 @@ void vtkBakedProp::ReleaseGraphicsResources()
 {
   for (Entry& entry : this->Entries)
   {
-    for (vtkRadianceBaker::KeptLight& kept : entry.Kept)
-    {
-      kept.Shares.Release();
-    }
+    ReleaseKept(entry);
   }
   this->Texture->ReleaseGraphicsResources();
   this->IsTextured = false;

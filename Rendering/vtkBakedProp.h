@@ -22,6 +22,7 @@
 #include "vtkRadianceBaker.h" // for its reports
 #include "vtkWeakPointer.h"   // for vtkWeakPointer
 
+#include <limits> // for limits that are none
 #include <vector> // for receivers
 
 class vtkOpenGLRenderWindow;
@@ -41,6 +42,17 @@ public:
     Baked,
     Failed ///< after vtkErrorMacro: there is nothing to show
   };
+
+  /**
+   * Of a receiver, how many vertices along each edge stand for its radiance; 0: it takes texels.
+   */
+  static int CountVertices(const penumbra::ReceiverPlan& plan,
+    const penumbra::ReceiverSettings& settings, bool showsRadiance);
+
+  /**
+   * The most bytes that may be kept for each texel, to bake less the next time.
+   */
+  void SetKeptBytesPerTexel(double bytes);
 
   /**
    * Bring the radiance up to date.
@@ -132,6 +144,7 @@ private:
   vtkNew<vtkRadianceTexture> Texture;
   std::vector<Entry> Entries;
   bool IsTextured = false;
+  double KeptBytesPerTexel = std::numeric_limits<double>::infinity();
   int TileSide = 32; ///< of the next tile: about what fits into a batch
 };
 

@@ -4,19 +4,17 @@
 
 #include "vtkSoftShadowPass.h"
 
-#include "FullScreenTriangle.h"
 #include "PlanTable.h"
-#include "ScreenMap.h"
+#include "ReceiverShader.h"
+#include "ShadingVertices.h"
+#include "TextureMemory.h"
 #include "vtkActor.h"
 #include "vtkBakedProp.h"
 #include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
-#include "vtkMatrix3x3.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
@@ -29,13 +27,10 @@
 #include "vtkShaderProgram.h"
 #include "vtkShadowFactors.h"
 #include "vtkShadowSceneCollector.h"
-#include "vtkSoftShadowFS.h"
 #include "vtkTextureObject.h"
 #include "vtkTextureUnitManager.h"
 #include "vtkTimerLog.h"
 #include "vtkWeakPointer.h"
-
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -129,17 +124,6 @@ void MakeShownTexture(
   state->Pop();
 }
 
-/// Whether OpenGL compiles what the shaders of props with so many receivers get: VTK crashes on
-/// shaders that do not compile.
-bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
-{
-  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
-    std::to_string(receivers) + "\n" + vtkSoftShadowFS +
-    "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
-    "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
-  return penumbra::ReadyFullScreenProgram(window, source.c_str());
-}
-
 /// True if an actor's material has no specular part.
 bool IsMatte(vtkProp* prop)
 {
@@ -148,41 +132,6 @@ bool IsMatte(vtkProp* prop)
   { return !property || property->GetSpecular() == 0.0; };
   return actor && hasNone(actor->GetProperty()) && hasNone(actor->GetBackfaceProperty());
 }
-
-/// If the actor is lit and no geometry shader comes between, hands where the vertex lies on its
-/// only receiver from the vertex shader to the fragment shader.
-bool AddVarying(std::string& vertexShader, const std::string& geometryShader)
-{
-  const std::string position = "vertexVCVSOutput = MCVCMatrix * vertexMC;";
-  if (!geometryShader.empty() || vertexShader.find(position) == std::string::npos)
-  {
-    return false;
-  }
-  vtkShaderProgram::Substitute(vertexShader, "//VTK::System::Dec",
-    "//VTK::System::Dec\nuniform mat4 penumbraViewMaps[1];\nout vec2 penumbraUVVSOutput;\n", false);
-  vtkShaderProgram::Substitute(vertexShader, position,
-    position + "\n  penumbraUVVSOutput = (penumbraViewMaps[0] * vertexVCVSOutput).xy;", false);
-  return vertexShader.find("out vec2 penumbraUVVSOutput") != std::string::npos;
-}
-
-/// What takes a fragment's position to its place on the receiver: in the view, or on the screen.
-glm::dmat4 MakeMap(const penumbra::Receiver& receiver, bool fromView, const glm::dmat4& worldToView,
-  const glm::dmat4& viewToClip, const glm::ivec4& viewport)
-{
-  const penumbra::Parallelogram& base = receiver.Base;
-  if (receiver.ProxyCentre)
-  {
-    const glm::dvec4& centre = *receiver.ProxyCentre;
-    return fromView ? penumbra::MakeProxyViewMap(base, centre, worldToView)
-                    : penumbra::MakeProxyScreenMap(base, centre, worldToView, viewToClip, viewport);
-  }
-  return fromView ? penumbra::MakeViewMap(base, worldToView)
-                  : penumbra::MakeScreenMap(base, worldToView, viewToClip, viewport);
-}
-
-/// Uniforms that a receiver takes, in units of four floats, and what is left to VTK's own.
-constexpr int VectorsPerReceiver = 7;
-constexpr int VectorsOfVTK = 128;
 
 /// The prop's entry of before, taken out of there, or a new one.
 ShownProp TakeShown(std::vector<ShownProp>& before, vtkProp* prop)
@@ -198,49 +147,15 @@ ShownProp TakeShown(std::vector<ShownProp>& before, vtkProp* prop)
   return shown;
 }
 
-/// How many receivers the shader of one prop can tell apart.
-std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
-{
-  GLint components = 0;
-  window->GetState()->vtkglGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
-  return static_cast<std::size_t>(
-    std::max(1, (components / 4 - VectorsOfVTK) / VectorsPerReceiver));
-}
-
-/// The uniforms of vtkSoftShadowFS.glsl, an element for each receiver.
-struct ReceiverUniforms
-{
-  std::vector<glm::mat4> Maps;
-  std::vector<glm::vec4> Places;
-  std::vector<glm::vec3> Ambient, Reflectance;
-
-  /// `inset`: how many texels inside the region's border (u, v) begin and end.
-  void Add(const glm::dmat4& map, const penumbra::ReceiverSettings& settings,
-    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize, float inset)
-  {
-    this->Maps.emplace_back(map);
-    this->Ambient.emplace_back(settings.AmbientRadiance);
-    this->Reflectance.emplace_back(settings.Reflectance);
-    this->Places.emplace_back((glm::vec2(region.Origin) + inset) / textureSize,
-      (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
-  }
-
-  void Set(vtkShaderProgram* program, const char* maps)
-  {
-    const auto count = static_cast<int>(this->Maps.size());
-    program->SetUniformMatrix4x4v(maps, count, &this->Maps.front()[0].x);
-    program->SetUniform4fv("penumbraPlaces", count, &this->Places.front().x);
-    program->SetUniform3fv("penumbraAmbient", count, &this->Ambient.front().x);
-    program->SetUniform3fv("penumbraReflectance", count, &this->Reflectance.front().x);
-  }
-};
-
 } // namespace
 
 struct vtkSoftShadowPass::Internals
 {
   vtkNew<vtkShadowSceneCollector> Collector;
   penumbra::ShadowScene Scene; ///< the collector's, with texels that fit into the memory
+  penumbra::TextureBudget Budget;
+  double BudgetMemory = 0.0; ///< the MaximumTextureMemory that this is of
+  std::string BudgetWarning; ///< the last one
   std::vector<ShownProp> Shown;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkTimeStamp BakeTime;
@@ -373,7 +288,7 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
     [this](const ShownProp& shown)
     { return shown.Prop && this->GetShadingOf(shown.Prop) != shown.Shading; });
   if (this->Impl->Collector->Update(renderer, this->OnlyDesignated) || isNewWindow ||
-    isShadedOtherwise)
+    isShadedOtherwise || this->Impl->BudgetMemory != this->MaximumTextureMemory)
   {
     if (isNewWindow)
     {
@@ -392,6 +307,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
 {
   this->Impl->Scene = this->Impl->Collector->GetScene();
   const penumbra::ShadowScene& scene = this->Impl->Scene;
+  this->Impl->BudgetMemory = this->MaximumTextureMemory;
   this->Impl->Window = window;
   this->Impl->BakeTime.Modified();
   std::vector<ShownProp> before;
@@ -405,9 +321,10 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   vtkOpenGLState* state = window->GetState();
   state->Push();
   this->Baker->SetScene(scene);
-  const std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
+  std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
+  this->FitTextures(plans);
   bool isBaked = false;
-  const std::size_t maximum = GetMaximumReceivers(window);
+  const std::size_t maximum = penumbra::GetMaximumReceivers(window);
   for (const auto& [prop, receivers] : this->Impl->Collector->GetReceiverProps())
   {
     if (receivers.size() > maximum)
@@ -418,6 +335,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     }
     ShownProp shown = TakeShown(before, prop);
     const int shading = this->GetShadingOf(prop);
+    shown.Baked->SetKeptBytesPerTexel(this->Impl->Budget.GetBytesLeftPerTexel());
     const vtkBakedProp::Outcome outcome = shown.Baked->Update(this->Baker, scene, receivers, plans,
       window, shading == RADIANCE, this->BakeMode != COMPLETE);
     if (outcome != vtkBakedProp::Outcome::Unchanged)
@@ -492,6 +410,53 @@ std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
   return plans;
 }
 
+void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
+{
+  std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
+  std::vector<penumbra::TextureNeed> asked;
+  for (const auto& [prop, indices] : this->Impl->Collector->GetReceiverProps())
+  {
+    const bool showsRadiance = this->GetShadingOf(prop) == RADIANCE;
+    penumbra::TextureNeed need;
+    bool hasTexture = showsRadiance;
+    for (const std::size_t i : indices)
+    {
+      const penumbra::ReceiverSettings& settings = receivers[i].Settings;
+      const int vertices = vtkBakedProp::CountVertices(plans[i], settings, showsRadiance);
+      hasTexture = hasTexture || !penumbra::IsUnshadowed(plans[i]);
+      need.HasVariance = need.HasVariance || settings.ErrorTolerance > 0.0;
+      need.Receivers.push_back({ vertices > 0 ? glm::ivec2(vertices) : receivers[i].Texels,
+        penumbra::FindSharpestPenumbra(plans[i]), vertices > 0 });
+    }
+    asked.push_back(hasTexture ? need : penumbra::TextureNeed());
+  }
+  constexpr double MiB = 1024.0 * 1024.0;
+  const std::vector<penumbra::TextureNeed>& fitted =
+    this->Impl->Budget.Fit(asked, MiB * this->MaximumTextureMemory);
+  for (std::size_t p = 0; p < fitted.size(); ++p)
+  {
+    const std::vector<std::size_t>& indices =
+      this->Impl->Collector->GetReceiverProps()[p].Receivers;
+    for (std::size_t r = 0; r < fitted[p].Receivers.size(); ++r)
+    {
+      const penumbra::TexelNeed& need = fitted[p].Receivers[r];
+      if (!need.IsFixed && need.Texels != receivers[indices[r]].Texels)
+      {
+        receivers[indices[r]].Texels = need.Texels;
+        plans[indices[r]] = this->Baker->Plan(indices[r]);
+      }
+    }
+  }
+  const std::string problem = this->Impl->Budget.Describe();
+  if (!problem.empty() && problem != this->Impl->BudgetWarning)
+  {
+    vtkWarningMacro("The view's textures do not fit into MaximumTextureMemory ("
+      << this->MaximumTextureMemory << " MiB): " << problem
+      << ". Allow more, or use a larger TexelSize.");
+  }
+  this->Impl->BudgetWarning = problem;
+}
+
 void vtkSoftShadowPass::ChooseShading()
 {
   // Props may have been deleted since they were baked.
@@ -518,7 +483,7 @@ void vtkSoftShadowPass::ChooseShading()
     if (shown.Baked->HasTexture() && (isOther || !shown.WasTried))
     {
       MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
-      if (!CompilesShadowCode(shown.CountReceivers(), this->Impl->Window))
+      if (!penumbra::CompilesShadowCode(shown.CountReceivers(), this->Impl->Window))
       {
         vtkErrorMacro("The shader code that shows shadows on "
           << shown.CountReceivers() << " receivers did not compile. They are drawn without "
@@ -555,45 +520,14 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   {
     return true;
   }
-  const ShownProp& shown = *found;
-  std::string defines =
-    "#define PENUMBRA_RECEIVERS " + std::to_string(shown.CountReceivers()) + "\n";
-  const std::vector<vtkBakedProp::Entry>& entries = shown.Baked->GetEntries();
-  const bool hasProxy = std::any_of(entries.begin(), entries.end(),
+  const std::vector<vtkBakedProp::Entry>& entries = found->Baked->GetEntries();
+  penumbra::ShadowCode code;
+  code.Receivers = entries.size();
+  code.HasProxy = std::any_of(entries.begin(), entries.end(),
     [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
-  std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
-  if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
-  {
-    defines += "#define PENUMBRA_VIEW\n";
-    position = "vec4(vertexVC.xyz, 1.0)";
-    if (hasProxy)
-    {
-      defines += "#define PENUMBRA_PROXY\n";
-    }
-    else if (shown.CountReceivers() == 1 && AddVarying(vertexShader, geometryShader))
-    {
-      defines += "#define PENUMBRA_VARYING\n";
-    }
-  }
-  vtkShaderProgram::Substitute(
-    fragmentShader, "//VTK::Output::Dec", "//VTK::Output::Dec\n" + defines + vtkSoftShadowFS);
-
-  // The parts of VTK's light model are there by name, save for unlit and physically based shading.
-  // Without a specular material their specular part is 0, and need not be computed.
-  const std::string shades = "ambientColor + diffuse + specular";
-  const bool hasDiffuse = fragmentShader.find(shades) != std::string::npos;
-  const std::string shadow = "penumbraShadow(" + position + ")";
-  if (shown.Shading == SHADOW && hasDiffuse)
-  {
-    vtkShaderProgram::Substitute(fragmentShader, shades,
-      "ambientColor + diffuse * " + shadow + (shown.IsMatte ? "" : " + specular"));
-    return true;
-  }
-  const std::string shade = shown.Shading == RADIANCE
-    ? "  gl_FragData[0].rgb = diffuseColor * penumbraRadiance(" + position + ");\n"
-    : "  gl_FragData[0].rgb *= " + shadow + ";\n";
-  vtkShaderProgram::Substitute(
-    fragmentShader, "//VTK::Light::Impl", "//VTK::Light::Impl\n" + shade, false);
+  code.ShowsRadiance = found->Shading == RADIANCE;
+  code.IsMatte = found->IsMatte;
+  penumbra::AddShadowCode(code, vertexShader, geometryShader, fragmentShader);
   return true;
 }
 
@@ -614,35 +548,12 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   glBindTexture(GL_TEXTURE_2D, texture->GetHandle());
   program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
 
-  // The matrices that the mappers use; vtkOpenGLCamera gives them transposed, as OpenGL reads them.
-  vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip;
-  vtkMatrix3x3* normals;
-  vtkOpenGLCamera::SafeDownCast(this->Impl->Renderer->GetActiveCamera())
-    ->GetKeyMatrices(this->Impl->Renderer, worldToView, normals, viewToClip, worldToClip);
-  const glm::dmat4 toView = glm::make_mat4(worldToView->GetData());
-  const glm::dmat4 toClip = glm::make_mat4(viewToClip->GetData());
-  glm::ivec4 viewport;
-  state->vtkglGetIntegerv(GL_VIEWPORT, &viewport.x);
-
-  const bool fromView = program->IsUniformUsed("penumbraViewMaps");
-  ReceiverUniforms uniforms;
-  for (std::size_t i = 0; i < shown.CountReceivers(); ++i)
-  {
-    const vtkBakedProp::Entry& entry = shown.Baked->GetEntries()[i];
-    penumbra::Receiver receiver = entry.Settings;
-    // Alone, it fills its texture, and (u, v) are the texture's; of several, the closest is looked
-    // for, by its own parallelogram.
-    const bool isAlone = shown.CountReceivers() == 1;
-    receiver.Base = isAlone ? entry.Base : receiver.Base;
-    uniforms.Add(MakeMap(receiver, fromView, toView, toClip, viewport), receiver.Settings,
-      radiance->GetRegions()[i], glm::vec2(radiance->GetSize()),
-      !isAlone && entry.Vertices > 0 ? 0.5f : 0.0f);
-  }
   if (shown.Factors)
   {
     program->SetUniformf("penumbraScale", shown.Factors->GetScale());
   }
-  uniforms.Set(program, fromView ? "penumbraViewMaps" : "penumbraScreenMaps");
+  penumbra::SetReceiverUniforms(
+    program, shown.Baked, penumbra::ScreenMatrices(this->Impl->Renderer));
   return true;
 }
 
@@ -734,6 +645,7 @@ void vtkSoftShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BakeMode: " << this->BakeMode << "\n";
   os << indent << "BatchSeconds: " << this->BatchSeconds << "\n";
   os << indent << "BakeProgress: " << this->GetBakeProgress() << "\n";
+  os << indent << "MaximumTextureMemory: " << this->MaximumTextureMemory << "\n";
   os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
   os << indent << "BakeCount: " << this->BakeCount << "\n";
   os << indent << "Receivers: " << this->GetNumberOfReceivers() << "\n";

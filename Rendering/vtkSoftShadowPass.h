@@ -130,6 +130,17 @@ public:
 
   ///@{
   /**
+   * The most memory in MiB, 1 or more, that the textures of a view may take, with what is kept to
+   * bake less the next time. Where it would be more, receivers get larger texels than they ask for,
+   * those with the widest penumbrae first (penumbra::FitTextures), and a warning says so. Default
+   * is 256.
+   */
+  vtkSetClampMacro(MaximumTextureMemory, double, 1.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumTextureMemory, double);
+  ///@}
+
+  ///@{
+  /**
    * How long a part of a texture a pixel may show, in its widths, without being blurred, 1 to 16:
    * shadows stay sharp where a floor is seen at a grazing angle. Default is 0: 16 on graphics
    * processors, and 1 on software OpenGL, whose frames it would make about twice as long.
@@ -215,6 +226,8 @@ private:
   int GetShadingOf(vtkProp* prop) const;
   void UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   std::vector<penumbra::ReceiverPlan> PlanReceivers();
+  /// Gives receivers larger texels where MaximumTextureMemory asks for it.
+  void FitTextures(std::vector<penumbra::ReceiverPlan>& plans);
   void BakeReceivers(vtkOpenGLRenderWindow* window);
   /// Bakes what is a draft as it is to be: in a PROGRESSIVE frame, as much as there is time for.
   void FinishDrafts();
@@ -228,6 +241,7 @@ private:
   int BakeMode = COMPLETE;
   double BatchSeconds = 0.1;
   double ReportedProgress = 1.0;
+  double MaximumTextureMemory = 256.0;
   int MaximumAnisotropy = 0;
   int BakeCount = 0;
   vtkNew<vtkRadianceBaker> Baker;

@@ -5,7 +5,7 @@
 # Builds a program of the tests with clang, AddressSanitizer and UndefinedBehaviorSanitizer, and code for libFuzzer, in
 # a folder of their own, and runs it:
 #   sh Testing/sanitize.sh BUILD_FOLDER VTK_DIR PROGRAM [ARGUMENT...]
-#   sh Testing/sanitize.sh build/sanitize /usr/lib/x86_64-linux-gnu/cmake/vtk-9.1 PenumbraBakeTests
+#   sh Testing/sanitize.sh build/sanitize /usr/lib/x86_64-linux-gnu/cmake/paraview-5.11/vtk PenumbraBakeTests
 # To search ten minutes for polygonal data that are not parsed well, and keep what is found in a folder that is there:
 #   ... PenumbraFuzz -max_total_time=600 -max_len=600 -len_control=0 build/sanitize/corpus
 # An input that fails is written to BUILD_FOLDER; BUILD_FOLDER/bin/PenumbraFuzz FILE repeats it.

@@ -52,7 +52,7 @@ int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
           "RemoteRenderThreshold, or let one process draw.");
         this->HasWarned = true;
       }
-      pass->PrepareFrame(view, this, this->ProgressiveRefinement);
+      pass->PrepareFrame(view, this, this->ProgressiveRefinement, this->MaximumTextureMemory);
       vtkSoftShadowPass::Designate(this->GetActor(), this->ShadowShading);
     }
   }
@@ -70,4 +70,5 @@ void vtkSoftShadowReceiverRepresentation::PrintSelf(ostream& os, vtkIndent inden
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ShadowShading: " << this->ShadowShading << "\n";
   os << indent << "ProgressiveRefinement: " << this->ProgressiveRefinement << "\n";
+  os << indent << "MaximumTextureMemory: " << this->MaximumTextureMemory << "\n";
 }

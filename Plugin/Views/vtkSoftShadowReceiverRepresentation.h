@@ -40,6 +40,15 @@ public:
   vtkBooleanMacro(ProgressiveRefinement, bool);
   ///@}
 
+  ///@{
+  /**
+   * The most memory in MiB, 1 or more, for the textures of the whole view, of which the receiver
+   * that allows the least decides (vtkSoftShadowPass::SetMaximumTextureMemory). Default is 256.
+   */
+  vtkSetMacro(MaximumTextureMemory, double);
+  vtkGetMacro(MaximumTextureMemory, double);
+  ///@}
+
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
@@ -55,6 +64,7 @@ private:
 
   int ShadowShading = 0;
   bool ProgressiveRefinement = true;
+  double MaximumTextureMemory = 256.0;
   bool HasWarned = false; ///< that shadows are missing, once
 };
 

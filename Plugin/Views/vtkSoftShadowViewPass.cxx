@@ -10,6 +10,8 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkSoftShadowViewPass);
 
 namespace
@@ -45,12 +47,15 @@ struct ViewParts : public vtkPVRenderView
 vtkSoftShadowViewPass::vtkSoftShadowViewPass() = default;
 vtkSoftShadowViewPass::~vtkSoftShadowViewPass() = default;
 
-void vtkSoftShadowViewPass::PrepareFrame(
-  vtkPVRenderView* view, vtkAlgorithm* representation, bool progressiveRefinement)
+void vtkSoftShadowViewPass::PrepareFrame(vtkPVRenderView* view, vtkAlgorithm* representation,
+  bool progressiveRefinement, double maximumTextureMemory)
 {
   this->View = view;
   this->Representation = representation;
   this->MayRefine = progressiveRefinement && (this->MayRefine || !this->IsPrepared);
+  this->SetMaximumTextureMemory(this->IsPrepared
+      ? std::min(maximumTextureMemory, this->GetMaximumTextureMemory())
+      : maximumTextureMemory);
   this->IsPrepared = true;
   this->ChooseBakeMode();
 }

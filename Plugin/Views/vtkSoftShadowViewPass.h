@@ -35,10 +35,10 @@ public:
 
   /**
    * To be called by the representation of each receiver before a frame. A single one without
-   * ProgressiveRefinement makes the frame complete.
+   * ProgressiveRefinement makes the frame complete; the least MaximumTextureMemory is the pass's.
    */
-  void PrepareFrame(
-    vtkPVRenderView* view, vtkAlgorithm* representation, bool progressiveRefinement);
+  void PrepareFrame(vtkPVRenderView* view, vtkAlgorithm* representation, bool progressiveRefinement,
+    double maximumTextureMemory);
 
   void Render(const vtkRenderState* s) override;
 

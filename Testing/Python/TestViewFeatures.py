@@ -362,6 +362,27 @@ def check_bakes():
     check_count(4, "one more frame")
 
 
+def check_texture_memory():
+    """The display that allows the least memory decides for the view, and the textures stay below."""
+    scene = make_scene(texel_size=7 / 512)
+    shown = make_view(scene)
+    wall = simple.ShadowReceiver(Input=simple.Plane(Origin=[-3, 3, 0], Point1=[3, 3, 0], Point2=[-3, 3, 4]))
+    displays = [shown.receiver, simple.Show(wall, shown.view)]
+    simple.Render(shown.view)
+    shadows = find_pass(shown.view)
+    checks.equal(shadows.GetMaximumTextureMemory(), 256, "MaximumTextureMemory in MiB, by default")
+    checks.at_least(shadows.GetTextureBytes(), 512 * 512 * 16, "bytes of a floor's textures")
+    for display in displays:
+        display.MaximumTextureMemory = 2
+        simple.Render(shown.view)
+        checks.equal(shadows.GetMaximumTextureMemory(), 2, "MaximumTextureMemory, if one display says 2")
+        checks.at_most(shadows.GetTextureBytes(), 2 << 20, "bytes of textures then")
+        display.MaximumTextureMemory = 300
+    simple.Render(shown.view)
+    checks.equal(shadows.GetMaximumTextureMemory(), 300, "MaximumTextureMemory, if both say 300")
+    checks.at_least(shadows.GetTextureBytes(), 512 * 512 * 16, "bytes of textures then")
+
+
 def screenshot(view, resolution):
     path = output_path("TestViewFeatures.png")
     simple.SaveScreenshot(path, view, ImageResolution=resolution)
