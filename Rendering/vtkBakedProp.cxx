@@ -149,6 +149,7 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   const std::vector<penumbra::ReceiverPlan>& plans, vtkOpenGLRenderWindow* window,
   bool showsRadiance, bool draft)
 {
+  this->DropTile();
   std::vector<Entry> entries;
   bool hasShadows = false;
   for (const std::size_t i : receivers)
@@ -316,25 +317,61 @@ bool vtkBakedProp::FinishTiles(
 {
   constexpr int SmallestTile = 4, LargestTile = 4096;
   constexpr double ShortestSeconds = 1e-4;
-  double now = vtkTimerLog::GetUniversalTime();
+  double now = 0.0;
   do
   {
+    this->BeginTile(baker, entry, region);
+    Tile& tile = this->Begun;
+    const vtkRadianceBaker::Progress progress = baker->DrawMasksUntil(
+      until, entry.Plan, entry.Receiver, this->Window, tile.Rectangle, tile.Masks);
+    if (progress == vtkRadianceBaker::Progress::OutOfTime)
+    {
+      return true;
+    }
+    const double start = vtkTimerLog::GetUniversalTime();
     vtkRadianceBaker::Part part;
-    part.Rectangle = TakeTile(entry.Draft, this->TileSide);
-    entry.Report =
-      baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
-    if (!entry.Report.IsComplete)
+    part.Rectangle = tile.Rectangle;
+    part.Masks = &tile.Masks;
+    if (progress == vtkRadianceBaker::Progress::Failed ||
+      !(entry.Report =
+          baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part))
+         .IsComplete)
     {
       return false;
     }
-    // The next tile is to take half of what is left; where nothing is, a batch starts with it.
-    const double taken = std::max(vtkTimerLog::GetUniversalTime() - now, ShortestSeconds);
+    entry.Draft = tile.Left;
+    this->DropTile();
+    // To resolve the next tile is to take a quarter of what is left; where nothing is, a batch
+    // starts with it.
     now = vtkTimerLog::GetUniversalTime();
-    const double growth = std::sqrt(0.5 * std::max(until - now, 0.5 * taken) / taken);
+    const double taken = std::max(now - start, ShortestSeconds);
+    const double growth = std::sqrt(0.25 * std::max(until - now, taken) / taken);
     this->TileSide = std::clamp(
       static_cast<int>(this->TileSide * std::clamp(growth, 0.25, 4.0)), SmallestTile, LargestTile);
   } while (!entry.Draft.IsEmpty() && now < until);
   return true;
+}
+
+void vtkBakedProp::BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::size_t region)
+{
+  if (!this->Begun.Rectangle.IsEmpty() && this->Begun.Region == region)
+  {
+    return;
+  }
+  this->DropTile();
+  // Its masks stay from frame to frame.
+  constexpr double MostBytes = 16.0 * 1024 * 1024;
+  const double most = MostBytes / baker->GetMaskBytesPerTexel(entry.Plan, entry.Receiver);
+  this->Begun.Region = region;
+  this->Begun.Left = entry.Draft;
+  this->Begun.Rectangle =
+    TakeTile(this->Begun.Left, std::min(this->TileSide, static_cast<int>(std::sqrt(most)) + 1));
+}
+
+void vtkBakedProp::DropTile()
+{
+  this->Begun.Masks.Release();
+  this->Begun = Tile();
 }
 
 double vtkBakedProp::CountDraftTexels() const
@@ -344,7 +381,7 @@ double vtkBakedProp::CountDraftTexels() const
   {
     texels += entry.Draft.GetArea();
   }
-  return texels;
+  return texels - this->Begun.Rectangle.GetArea() * this->Begun.Masks.GetShare();
 }
 
 double vtkBakedProp::CountTexels() const
@@ -381,7 +418,7 @@ std::vector<glm::vec4> vtkBakedProp::Download(
 
 std::size_t vtkBakedProp::GetBytes() const
 {
-  std::size_t bytes = this->Texture->GetBytes();
+  std::size_t bytes = this->Texture->GetBytes() + this->Begun.Masks.GetBytes();
   for (const Entry& entry : this->Entries)
   {
     bytes += CountKeptBytes(entry);
@@ -391,6 +428,7 @@ std::size_t vtkBakedProp::GetBytes() const
 
 void vtkBakedProp::ReleaseGraphicsResources()
 {
+  this->DropTile();
   for (Entry& entry : this->Entries)
   {
     ReleaseKept(entry);

@@ -77,7 +77,7 @@ public:
 
   ///@{
   /**
-   * The texels that are drafts, and all.
+   * The texels that are drafts, but for what is done of them already; and all.
    */
   double CountDraftTexels() const;
   double CountTexels() const;
@@ -121,6 +121,11 @@ public:
   std::size_t GetBytes() const;
 
   /**
+   * Free what Finish() has begun, as far as the window's context is there: it must be current.
+   */
+  void DropTile();
+
+  /**
    * Free the textures.
    */
   void ReleaseGraphicsResources();
@@ -137,6 +142,7 @@ private:
   bool Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
     const penumbra::TexelRectangle& rectangle, bool draft);
   bool FinishTiles(vtkRadianceBaker* baker, Entry& entry, std::size_t region, double until);
+  void BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::size_t region);
   Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
   Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
 
@@ -145,7 +151,16 @@ private:
   std::vector<Entry> Entries;
   bool IsTextured = false;
   double KeptBytesPerTexel = std::numeric_limits<double>::infinity();
-  int TileSide = 32; ///< of the next tile: about what fits into a batch
+  /// What Finish() is about, from frame to frame.
+  struct Tile
+  {
+    std::size_t Region = 0;
+    penumbra::TexelRectangle Rectangle; ///< empty: there is none
+    penumbra::TexelRectangle Left;      ///< of the draft, without it
+    vtkRadianceBaker::PartMasks Masks;
+  };
+  Tile Begun;
+  int TileSide = 32; ///< of the next tile: about what is resolved in a part of a batch
 };
 
 #endif

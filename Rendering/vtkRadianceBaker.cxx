@@ -30,6 +30,9 @@ namespace
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
 
+/// What a clock tells apart.
+constexpr double ShortestSeconds = 1e-4;
+
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
 {
@@ -97,6 +100,25 @@ struct vtkRadianceBaker::Job
   penumbra::TexelRectangle Resolved; ///< of these
   std::size_t KeptBytes = 0;         ///< that are left of Wanted's
   Report Result;
+
+  /// The texels that are baked, finer ones where there is Supersampling, for those that are wanted.
+  penumbra::TexelRectangle FindResolved() const
+  {
+    const int factor = this->Plan.Supersampling;
+    const penumbra::TexelRectangle& wanted = this->Wanted.Rectangle;
+    return factor == 1 ? wanted
+                       : penumbra::TexelRectangle{ wanted.Low * factor, wanted.High * factor }
+                           .Grown(factor / 2)
+                           .Intersection(penumbra::WholeRectangle(this->Plan.Texels));
+  }
+
+  /// How many samples of a light the receiver's settings ask for, without ErrorTolerance.
+  int CountSamples(std::size_t light) const
+  {
+    const int count = this->Receiver.Settings.GetSampleCount(
+      this->Plan.Lights[light]->GetSolidAngleBound(this->Receiver.Base));
+    return this->Wanted.MostSamples > 0 ? std::min(count, this->Wanted.MostSamples) : count;
+  }
 
   /// How many samples of a light there are after each batch, with ErrorTolerance.
   std::vector<int> GetBatchEnds(std::size_t light) const
@@ -238,18 +260,14 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
   const vtkRadianceTexture::Region place = texture->GetRegions()[region];
   const penumbra::TexelRectangle& wanted = job.Wanted.Rectangle;
   const int factor = job.Plan.Supersampling;
+  job.Resolved = job.FindResolved();
   if (factor == 1)
   {
     texture->Clear(place, wanted);
     job.Target = texture;
     job.Region = place;
-    job.Resolved = wanted;
     return this->BakeLights(job);
   }
-  // The finer texels that the wanted ones are made of.
-  job.Resolved = penumbra::TexelRectangle{ wanted.Low * factor, wanted.High * factor }
-                   .Grown(factor / 2)
-                   .Intersection(penumbra::WholeRectangle(job.Plan.Texels));
   vtkNew<vtkRadianceTexture> fine;
   bool isDone = false;
   if (fine->Allocate(job.Window, { job.Resolved.GetSize() }))
@@ -273,14 +291,12 @@ bool vtkRadianceBaker::BakeLights(Job& job)
   for (const std::size_t light : this->Scene->GetLightOrder())
   {
     const double solidAngle = job.Plan.Lights[light]->GetSolidAngleBound(job.Receiver.Base);
-    int count =
-      hasTolerance ? job.GetBatchEnds(light).front() : settings.GetSampleCount(solidAngle);
-    if (!hasTolerance && settings.SolidAnglePerSample * count < solidAngle &&
-      settings.SolidAnglePerSample > 0.0)
+    const int count = hasTolerance ? job.GetBatchEnds(light).front() : job.CountSamples(light);
+    if (!hasTolerance && settings.SolidAnglePerSample > 0.0 &&
+      settings.SolidAnglePerSample * settings.GetSampleCount(solidAngle) < solidAngle)
     {
       job.Result.StoppedBy = "MaximumLightSamples";
     }
-    count = job.Wanted.MostSamples > 0 ? std::min(count, job.Wanted.MostSamples) : count;
     const double start = vtkTimerLog::GetUniversalTime();
     if (hasTolerance && count == 1 && job.Plan.Pairs[light].Needed == penumbra::Effect::Soft &&
       job.TakeSamples(light, 2).size() > 1)
@@ -348,14 +364,37 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
     return false;
   }
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
+  if (job.Wanted.Masks)
+  {
+    return this->UseMasks(job, light, samples, shaded);
+  }
   return this->Resolver->SetSamples(samples) &&
     this->DrawMasks(job, light, samples, shaded, true,
       [&](const penumbra::TexelRectangle& band, const glm::ivec2& maskFirstTexel)
       { this->Resolver->ResolveMasks(job.Target, job.Region, band, this->Masks, maskFirstTexel); });
 }
 
+bool vtkRadianceBaker::UseMasks(Job& job, std::size_t light,
+  const std::vector<penumbra::LightSample>& samples, const penumbra::TexelRectangle& shaded)
+{
+  const penumbra::TexelRectangle all = this->Resolver->GetMaskRectangle(shaded);
+  if (!this->Resolver->SetSamples(samples) ||
+    (job.Plan.Pairs[light].Translucent > 0 &&
+      !(this->SelectOccluders(job, light, all) && this->SetTransmittances(job, light))))
+  {
+    return false;
+  }
+  vtkVisibilityMask* masks = job.Wanted.Masks->Lights[light].Masks;
+  this->Resolver->ResolveMasks(job.Target, job.Region, shaded, masks, all.Low);
+  PairReport& report = job.Result.Pairs[light];
+  report.LightSamples += static_cast<int>(samples.size());
+  report.Texels = static_cast<std::size_t>(all.GetArea());
+  job.NoteBytes(light, masks->GetBytes() + this->Resolver->GetBytes());
+  return true;
+}
+
 bool vtkRadianceBaker::SelectOccluders(
-  Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
+  const Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle)
 {
   if (job.Receiver.Settings.Planner)
   {
@@ -369,13 +408,21 @@ bool vtkRadianceBaker::SelectOccluders(
   {
     this->Occluders.SelectAll(*job.Plan.Lights[light]);
   }
+  return this->Geometry->Upload(this->Occluders);
+}
+
+bool vtkRadianceBaker::SetTransmittances(const Job& job, std::size_t light)
+{
+  if (job.Plan.Pairs[light].Translucent == 0)
+  {
+    return true;
+  }
   std::vector<glm::dvec3> transmittances;
   for (const penumbra::Caster& caster : this->Occluders.GetTranslucentCasters())
   {
     transmittances.push_back(this->Scene->Surfaces[caster.Surface]->Transmittance);
   }
-  return this->Geometry->Upload(this->Occluders) &&
-    (job.Plan.Pairs[light].Translucent == 0 || this->Resolver->SetTransmittances(transmittances));
+  return this->Resolver->SetTransmittances(transmittances);
 }
 
 template <typename Use>
@@ -389,7 +436,7 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
   const glm::ivec2 size = all.GetSize();
   const int halo = withHalo ? this->Resolver->GetHalo() : 0;
   const int count = static_cast<int>(samples.size());
-  if (!this->SelectOccluders(job, light, all))
+  if (!this->SelectOccluders(job, light, all) || !this->SetTransmittances(job, light))
   {
     return false;
   }
@@ -420,7 +467,7 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
     const penumbra::TexelRectangle band =
       rectangle.Rows(row, std::min(row + rows, rectangle.High.y));
     const glm::ivec2 first = getMasks(band).Low;
-    if (!this->Masks->Draw(this->Geometry, projections, job.Plan.Texels, first))
+    if (!this->Masks->Draw(this->Geometry, projections, job.Plan.Texels, first, 0, count))
     {
       return false;
     }
@@ -432,6 +479,132 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
   job.NoteBytes(
     light, bytesPerRow * static_cast<std::size_t>(maskSize.y) + this->Resolver->GetBytes());
   return true;
+}
+
+std::size_t vtkRadianceBaker::PartMasks::GetBytes() const
+{
+  std::size_t bytes = 0;
+  for (const LightMasks& light : this->Lights)
+  {
+    bytes += light.Masks ? light.Masks->GetBytes() : 0;
+  }
+  return bytes;
+}
+
+double vtkRadianceBaker::PartMasks::GetShare() const
+{
+  double share = 0.0;
+  for (const LightMasks& light : this->Lights)
+  {
+    share += light.Count > 0 ? static_cast<double>(light.Drawn) / light.Count : 0.0;
+  }
+  return this->Lights.empty() ? 0.0 : share / static_cast<double>(this->Lights.size());
+}
+
+void vtkRadianceBaker::PartMasks::Release()
+{
+  for (LightMasks& light : this->Lights)
+  {
+    if (light.Masks)
+    {
+      light.Masks->ReleaseGraphicsResources();
+    }
+  }
+  this->Lights.clear();
+}
+
+vtkRadianceBaker::Progress vtkRadianceBaker::DrawMasksUntil(double until,
+  const penumbra::ReceiverPlan& plan, std::size_t receiver, vtkOpenGLRenderWindow* window,
+  const penumbra::TexelRectangle& rectangle, PartMasks& masks)
+{
+  const penumbra::Receiver& r = this->Scene->Receivers[receiver];
+  Part part;
+  part.Rectangle = rectangle;
+  Job job{ plan, r, part, window, nullptr, {}, {}, 0, MakeReport(plan, *this->Scene, receiver) };
+  job.Resolved = job.FindResolved();
+  this->Occluders.SetReceiver(r, plan.Frame);
+  masks.Lights.resize(plan.Lights.size());
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  Progress progress = Progress::Done;
+  for (std::size_t light = 0; light < plan.Lights.size() && progress == Progress::Done; ++light)
+  {
+    progress = this->DrawLightUntil(until, job, light, masks.Lights[light]);
+  }
+  state->Pop();
+  return progress;
+}
+
+vtkRadianceBaker::Progress vtkRadianceBaker::DrawLightUntil(
+  double until, Job& job, std::size_t light, PartMasks::LightMasks& masks)
+{
+  const penumbra::PairPlan& pair = job.Plan.Pairs[light];
+  const penumbra::TexelRectangle shaded = job.Resolved.Intersection(pair.Shaded);
+  const bool hasSamples =
+    pair.Needed == penumbra::Effect::Soft || pair.Needed == penumbra::Effect::Hard;
+  if (!hasSamples || shaded.IsEmpty())
+  {
+    return Progress::Done;
+  }
+  const std::vector<penumbra::LightSample> taken = job.TakeSamples(light, job.CountSamples(light));
+  const int count = static_cast<int>(taken.size());
+  masks.Count = count;
+  if (masks.Masks && masks.Drawn == count)
+  {
+    return Progress::Done;
+  }
+  const penumbra::TexelRectangle all = vtkRadianceResolver::GetMaskRectangle(
+    shaded, pair.Shaded, job.Receiver.Settings.Reconstruction, job.Plan.Texels);
+  if (!this->SelectOccluders(job, light, all))
+  {
+    return Progress::Failed;
+  }
+  if (!masks.Masks)
+  {
+    masks.Masks = vtkSmartPointer<vtkVisibilityMask>::New();
+    if (!masks.Masks->Allocate(job.Window, all.GetSize(), count, this->Geometry->GetNumberOfSets()))
+    {
+      return Progress::Failed;
+    }
+  }
+  const std::vector<penumbra::RegisteredProjection> projections =
+    MakeProjections(taken, job.Plan.Frame);
+  // A sample takes its time for triangles and texels.
+  const double work = static_cast<double>(this->Occluders.GetTriangles().size()) + all.GetArea();
+  double now = vtkTimerLog::GetUniversalTime();
+  do
+  {
+    const double start = now;
+    const double fitting = 0.5 * this->WorkPerSecond * (until - start) / work;
+    const auto samples =
+      static_cast<int>(std::clamp(fitting, 1.0, static_cast<double>(count - masks.Drawn)));
+    const int end = masks.Drawn + samples;
+    if (!masks.Masks->Draw(this->Geometry, projections, job.Plan.Texels, all.Low, masks.Drawn, end))
+    {
+      return Progress::Failed;
+    }
+    glFinish();
+    masks.Drawn = end;
+    now = vtkTimerLog::GetUniversalTime();
+    this->WorkPerSecond = samples * work / std::max(now - start, ShortestSeconds);
+  } while (masks.Drawn < count && now < until);
+  return masks.Drawn < count ? Progress::OutOfTime : Progress::Done;
+}
+
+double vtkRadianceBaker::GetMaskBytesPerTexel(
+  const penumbra::ReceiverPlan& plan, std::size_t receiver) const
+{
+  const penumbra::Receiver& r = this->Scene->Receivers[receiver];
+  double bytes = 0.0;
+  for (std::size_t light = 0; light < plan.Lights.size(); ++light)
+  {
+    const int layers = r.Settings.GetSampleCount(plan.Lights[light]->GetSolidAngleBound(r.Base)) /
+        vtkVisibilityMask::SamplesPerLayer +
+      1;
+    const int sets = 1 + plan.Pairs[light].Translucent;
+    bytes += static_cast<double>(sizeof(GLuint)) * layers * sets;
+  }
+  return bytes * plan.Supersampling * plan.Supersampling;
 }
 
 bool vtkRadianceBaker::RefineLights(Job& job)

@@ -23,6 +23,7 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkRadianceResolver.h" // for its Options
+#include "vtkSmartPointer.h"     // for masks
 
 #include <string> // for reports
 #include <vector> // for reports
@@ -100,6 +101,24 @@ public:
     penumbra::TexelRectangle Stale; ///< of the shares: what has to be drawn anew
   };
 
+  /// Masks that are drawn little by little, of each light of the scene.
+  struct PartMasks
+  {
+    struct LightMasks
+    {
+      vtkSmartPointer<vtkVisibilityMask> Masks; ///< nullptr: none yet, or none are needed
+      int Drawn = 0;                            ///< how many samples are
+      int Count = 0;                            ///< and how many are to be
+    };
+    std::vector<LightMasks> Lights;
+
+    /// About how much of them is drawn, from 0 to 1.
+    double GetShare() const;
+    std::size_t GetBytes() const;
+    /// The window must be current.
+    void Release();
+  };
+
   /// How much of a receiver is baked, and how.
   struct Part
   {
@@ -111,6 +130,8 @@ public:
     std::size_t KeptBytes = 0;
     /// What masks may take together with what is kept: bands of them get lower for it.
     std::size_t MaskAndKeptBytes = 0;
+    /// Those of DrawMasksUntil(), when it is done; nullptr: they are drawn as they are needed.
+    const PartMasks* Masks = nullptr;
   };
 
   ///@{
@@ -125,6 +146,26 @@ public:
     vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture, std::size_t region,
     const Part& part);
   ///@}
+
+  enum class Progress
+  {
+    Done,
+    OutOfTime,
+    Failed ///< after vtkErrorMacro
+  };
+
+  /**
+   * Draw masks of a part, some samples at a time, until it is late: heavy occluders may take longer
+   * than a frame should. `until` is in vtkTimerLog::GetUniversalTime()'s seconds. What BakePart()
+   * makes of them is the same, to the bit.
+   */
+  Progress DrawMasksUntil(double until, const penumbra::ReceiverPlan& plan, std::size_t receiver,
+    vtkOpenGLRenderWindow* window, const penumbra::TexelRectangle& rectangle, PartMasks& masks);
+
+  /**
+   * The bytes that all masks of a receiver take for each texel, were they drawn at once.
+   */
+  double GetMaskBytesPerTexel(const penumbra::ReceiverPlan& plan, std::size_t receiver) const;
 
   /**
    * Free what bakes share. The window must be current.
@@ -147,7 +188,12 @@ private:
   /// Whether a light's shares are kept; they are then made to fit.
   bool MayKeep(Job& job, std::size_t light);
   bool BakeFromKept(Job& job, std::size_t light, int count, const penumbra::TexelRectangle& shaded);
-  bool SelectOccluders(Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
+  bool SelectOccluders(
+    const Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
+  bool SetTransmittances(const Job& job, std::size_t light);
+  Progress DrawLightUntil(double until, Job& job, std::size_t light, PartMasks::LightMasks& masks);
+  bool UseMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
+    const penumbra::TexelRectangle& shaded);
   /// ErrorTolerance: more samples for the lights, until they have enough of them.
   bool RefineLights(Job& job);
   bool RefineLight(Job& job, std::size_t light, double allowed, vtkRadianceTexture* scratch);
@@ -164,6 +210,9 @@ private:
   vtkNew<vtkOccluderGeometry> Geometry;
   vtkNew<vtkVisibilityMask> Masks;
   vtkNew<vtkRadianceResolver> Resolver;
+  /// Triangles and texels, of as many samples, that DrawMasksUntil() drew; at first, as many as any
+  /// machine draws.
+  double WorkPerSecond = 1e6;
 };
 
 #endif

@@ -204,10 +204,17 @@ std::size_t vtkRadianceResolver::GetKeptBytesPerTexel(
 penumbra::TexelRectangle vtkRadianceResolver::GetMaskRectangle(
   const penumbra::TexelRectangle& resolved) const
 {
-  const int halo = this->GetHalo();
-  return this->Shaded.Grown(halo)
+  return GetMaskRectangle(resolved, this->Shaded, this->Chosen.Reconstruction, this->Texels);
+}
+
+penumbra::TexelRectangle vtkRadianceResolver::GetMaskRectangle(
+  const penumbra::TexelRectangle& resolved, const penumbra::TexelRectangle& shaded,
+  bool reconstruction, const glm::ivec2& texels)
+{
+  const int halo = reconstruction ? ReconstructionRadius : 0;
+  return shaded.Grown(halo)
     .Intersection(resolved.Grown(halo))
-    .Intersection(penumbra::WholeRectangle(this->Texels));
+    .Intersection(penumbra::WholeRectangle(texels));
 }
 
 template <typename Use>

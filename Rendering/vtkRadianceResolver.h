@@ -106,10 +106,14 @@ public:
   static std::size_t GetKeptBytesPerTexel(const penumbra::LightShape& light, bool tinted);
   ///@}
 
+  ///@{
   /**
    * The texels whose masks are needed to resolve some others.
    */
   penumbra::TexelRectangle GetMaskRectangle(const penumbra::TexelRectangle& resolved) const;
+  static penumbra::TexelRectangle GetMaskRectangle(const penumbra::TexelRectangle& resolved,
+    const penumbra::TexelRectangle& shaded, bool reconstruction, const glm::ivec2& texels);
+  ///@}
 
   ///@{
   /**

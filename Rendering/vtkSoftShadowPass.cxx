@@ -630,6 +630,10 @@ void vtkSoftShadowPass::ReleaseGraphicsResources(vtkWindow* window)
   }
   if (window == this->Impl->Window)
   {
+    for (ShownProp& shown : this->Impl->Shown)
+    {
+      shown.Baked->DropTile();
+    }
     this->Impl->Shown.clear();    // textures free themselves in their own context
     this->Impl->Window = nullptr; // the next frame bakes anew
   }

@@ -42,21 +42,19 @@ public:
   }
 };
 
-/// Sends up to 32 projections; the answer is how many.
-int SetProjections(vtkShaderProgram* program,
-  const std::vector<penumbra::RegisteredProjection>& projections, std::size_t first)
+/// Sends the projections of samples of one layer, from its bit `firstBit` on.
+void SetProjections(
+  vtkShaderProgram* program, const penumbra::RegisteredProjection* first, int firstBit, int count)
 {
-  std::array<float, 3 * vtkVisibilityMask::SamplesPerLayer> k{};
-  const std::size_t count =
-    std::min<std::size_t>(projections.size() - first, vtkVisibilityMask::SamplesPerLayer);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const glm::dvec3& exact = projections[first + i].K;
-    const glm::vec3 v(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
-    std::copy_n(&v.x, 3, k.data() + 3 * i);
-  }
-  program->SetUniform3fv("registration", vtkVisibilityMask::SamplesPerLayer, k.data());
-  return static_cast<int>(count);
+  std::array<glm::vec3, vtkVisibilityMask::SamplesPerLayer> k{};
+  std::transform(first, first + count, k.begin() + firstBit,
+    [](const penumbra::RegisteredProjection& projection)
+    {
+      const glm::dvec3& exact = projection.K;
+      return glm::vec3(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
+    });
+  program->SetUniformi("firstBit", firstBit);
+  program->SetUniform3fv("registration", vtkVisibilityMask::SamplesPerLayer, &k.front().x);
 }
 
 } // namespace
@@ -77,8 +75,9 @@ bool vtkVisibilityMask::Allocate(
   this->ReleaseGraphicsResources();
   this->Window = window;
   this->Size = size;
-  this->Sets = sets;
-  const int layers = static_cast<int>(sets) * ((samples + SamplesPerLayer - 1) / SamplesPerLayer);
+  this->Sets = static_cast<int>(sets);
+  this->LayersOfSet = (samples + SamplesPerLayer - 1) / SamplesPerLayer;
+  const int layers = this->Sets * this->LayersOfSet;
   penumbra::ForgetOpenGLErrors();
   glGenTextures(1, &this->Texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->Texture);
@@ -105,7 +104,7 @@ bool vtkVisibilityMask::Allocate(
 
 bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
-  const glm::ivec2& firstTexel)
+  const glm::ivec2& firstTexel, int firstSample, int endSample)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program =
@@ -130,22 +129,42 @@ bool vtkVisibilityMask::Draw(vtkOccluderGeometry* occluders,
   }
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   const ScopedMaskState maskState;
-  GLint layer = 0;
-  for (std::size_t set = 0; set < this->Sets; ++set)
+  for (int set = 0; set < this->Sets; ++set)
   {
-    for (std::size_t first = 0; first < projections.size(); first += SamplesPerLayer)
+    for (int sample = firstSample, end; sample < endSample; sample = end)
     {
-      glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texture, 0, layer++);
-      const GLuint unblocked[4] = { 0, 0, 0, 0 };
-      glClearBufferuiv(GL_COLOR, 0, unblocked);
-      occluders->Draw(set, program, SetProjections(program, projections, first));
+      const int layer = sample / SamplesPerLayer, bit = sample % SamplesPerLayer;
+      end = std::min((layer + 1) * SamplesPerLayer, endSample);
+      glFramebufferTextureLayer(
+        GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->Texture, 0, set * this->LayersOfSet + layer);
+      if (bit == 0)
+      {
+        const GLuint unblocked[4] = { 0, 0, 0, 0 };
+        glClearBufferuiv(GL_COLOR, 0, unblocked);
+      }
+      SetProjections(program, &projections[static_cast<std::size_t>(sample)], bit, end - sample);
+      occluders->Draw(static_cast<std::size_t>(set), program, end - sample);
     }
   }
   return true;
 }
 
+std::size_t vtkVisibilityMask::GetBytes() const
+{
+  const auto texels =
+    static_cast<std::size_t>(this->Size.x) * static_cast<std::size_t>(this->Size.y);
+  return this->Texture == 0
+    ? 0
+    : texels * static_cast<std::size_t>(this->Sets * this->LayersOfSet) * sizeof(GLuint);
+}
+
 void vtkVisibilityMask::ReleaseGraphicsResources()
 {
+  if (!this->Window) // it has taken them with it
+  {
+    this->Texture = 0;
+    this->Framebuffer = 0;
+  }
   if (this->Texture != 0)
   {
     glDeleteTextures(1, &this->Texture);

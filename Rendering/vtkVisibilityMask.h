@@ -44,13 +44,14 @@ public:
 
   /**
    * Draw the masks of a receiver of `texels` from its texel `firstTexel` on, as many as were
-   * allocated, for as many sets of occluders. There must be as many projections as samples. What is
+   * allocated, for as many sets of occluders. There must be as many projections as samples; those
+   * from `firstSample` up to `endSample` are drawn, and of a layer the first ones first. What is
    * drawn in one rectangle is, to the bit, what is drawn in any other that holds the same texels,
    * if no triangle reaches up to a sample. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool Draw(vtkOccluderGeometry* occluders,
     const std::vector<penumbra::RegisteredProjection>& projections, const glm::ivec2& texels,
-    const glm::ivec2& firstTexel);
+    const glm::ivec2& firstTexel, int firstSample, int endSample);
 
   /**
    * The texture: GL_TEXTURE_2D_ARRAY of GL_R32UI; sample s is bit s % 32 of layer s / 32, counted
@@ -62,6 +63,11 @@ public:
    * The most samples that the window's OpenGL can hold for so many sets, 32 per layer.
    */
   static int GetMaximumSamples(vtkOpenGLRenderWindow* window, std::size_t sets);
+
+  /**
+   * The bytes of the texture.
+   */
+  std::size_t GetBytes() const;
 
   /**
    * Free the texture. The window must be current.
@@ -80,7 +86,8 @@ private:
   unsigned int Texture = 0;
   unsigned int Framebuffer = 0;
   glm::ivec2 Size{ 0 };
-  std::size_t Sets = 1;
+  int Sets = 1;
+  int LayersOfSet = 1;
 };
 
 #endif

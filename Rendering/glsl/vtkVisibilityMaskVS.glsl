@@ -9,6 +9,7 @@
 in vec4 vertexUVHT; // and a height that all of the vertex's surface is below
 
 uniform vec3 registration[32]; // xy: k.x and k.y of each sample; z: its height, 0 for a direction
+uniform int firstBit; // of the layer: the first instance's
 uniform vec2 receiverTexels;
 
 flat out uint sampleBit;
@@ -24,7 +25,8 @@ float homogeneous(float h, float sampleHeight)
 void main()
 {
   const float smallestW = 1.0 / 1024.0;
-  vec3 to = registration[gl_InstanceID];
+  int bit = firstBit + gl_InstanceID;
+  vec3 to = registration[bit];
   float w = homogeneous(vertexUVHT.z, to.z);
   vec2 p = vertexUVHT.xy - to.xy * vertexUVHT.z;
   // Rasterisers put vertices on a grid of 1/256 of a texel. They are put there already, so that nothing that
@@ -41,5 +43,5 @@ void main()
   gl_Position = vec4(2.0 * p - w, 0.0, w); // [0, 1] w' is [-w, w]
   gl_ClipDistance[0] = vertexUVHT.z;
   gl_ClipDistance[1] = w;
-  sampleBit = 1u << uint(gl_InstanceID);
+  sampleBit = 1u << uint(bit);
 }
