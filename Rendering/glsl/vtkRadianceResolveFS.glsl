@@ -111,7 +111,7 @@ void addFit(inout vec3 sum, Fit fit, float trust)
 }
 
 // At a crease: the mean of the texel's own count and of what the windows say that lie to one side of it, halves
-// of 5x5 texels and quarters of 7x7. Those that the crease cuts are not trusted.
+// of 5x5 texels. Those that the crease cuts are not trusted.
 vec2 averageSides(sampler2D source, ivec2 texel, vec2 own)
 {
   vec3 sum = vec3(own, 1.0);
@@ -119,23 +119,19 @@ vec2 averageSides(sampler2D source, ivec2 texel, vec2 own)
   Fit fit = fitWindow(source, texel, ivec2(-1), ivec2(3), own);
   float change = abs(fit.share.r - own.r) / fit.error;
   addFit(sum, fit, fit.isPenumbra ? 1.0 - smoothstep(0.8, 2.5, change) : 0.0);
-  for (int side = 0; side < 2; ++side)
+  for (int side = -2; side <= 0; side += 2)
   {
-    fit = fitWindow(source, texel, ivec2(-2 + 2 * side, -2), ivec2(3, 5), own);
+    fit = fitWindow(source, texel, ivec2(side, -2), ivec2(3, 5), own);
     addFit(sum, fit, getTrust(fit, 0.8, 1.4));
-    fit = fitWindow(source, texel, ivec2(-2, -2 + 2 * side), ivec2(5, 3), own);
+    fit = fitWindow(source, texel, ivec2(-2, side), ivec2(5, 3), own);
     addFit(sum, fit, getTrust(fit, 0.8, 1.4));
-    for (int other = 0; other < 2; ++other)
-    {
-      fit = fitWindow(source, texel, ivec2(-3 + 3 * side, -3 + 3 * other), ivec2(4), own);
-      addFit(sum, fit, getTrust(fit, 0.8, 1.4));
-    }
   }
   return sum.xy / sum.z;
 }
 
 // Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel: within
-// penumbras, shares are fitted in windows as wide as a quadratic explains. The README tells what that brings.
+// penumbras, shares are fitted in windows as wide as a quadratic explains. Rendering/README.md says what that
+// brings.
 vec2 reconstructShare(sampler2D source, ivec2 texel)
 {
   vec2 own = seenShare(source, texel);
@@ -144,7 +140,7 @@ vec2 reconstructShare(sampler2D source, ivec2 texel)
     return own;
   }
   Fit fit = fitWindow(source, texel, ivec2(-2), ivec2(5), own);
-  float trust = getTrust(fit, 0.75, 1.45);
+  float trust = getTrust(fit, 1.1, 1.4);
   vec2 share = fit.share;
   if (trust < 1.0)
   {
