@@ -68,9 +68,11 @@ Fit fitWindow(sampler2D source, ivec2 texel, ivec2 first, ivec2 size, vec2 own)
   float squares = 0.0;
   float variances = 0.0;
   bool isPenumbra = true;
-  for (int j = 0; j < size.y; ++j)
+  // Software OpenGL fits windows of texels that need none as well, unless it comes to a loop that it cannot unroll.
+  ivec2 end = reconstruction * size;
+  for (int j = 0; j < end.y && isPenumbra; ++j)
   {
-    for (int i = 0; i < size.x; ++i)
+    for (int i = 0; i < end.x && isPenumbra; ++i)
     {
       vec2 share = seenShare(source, low + ivec2(i, j));
       isPenumbra = isPenumbra && share.r > 0.0 && share.r < 1.0;
