@@ -34,12 +34,67 @@ vec2 seenShare(sampler2D source, ivec2 texel)
   return texelFetch(source, texel - sharesFirstTexel, 0).rg;
 }
 
-// The quadratic that fits the shares of a window of texels best, by least squares (Savitzky and Golay 1964, in
-// two dimensions): what it is at one of the texels.
+// Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel. Within
+// penumbras, the shares of a window of texels are fitted by a quadratic, by least squares (Savitzky and Golay
+// 1964, in two dimensions). From the window's middle, its basis is orthogonal: 1, x, y, x^2 - m2, y^2 - m2, xy.
+struct Window
+{
+  ivec2 first; // texel of the receiver
+  ivec2 size;
+  vec2 middle; // from the first texel
+  vec2 m2;     // means over the window: of x^2 and y^2,
+  vec2 b;      // and of the squares of x^2 - m2 and y^2 - m2
+};
+
+Window makeWindow(ivec2 first, ivec2 size)
+{
+  vec2 s = vec2(size);
+  vec2 m2 = (s * s - 1.0) / 12.0;
+  return Window(first, size, 0.5 * (s - 1.0), m2, m2 * ((3.0 * s * s - 7.0) / 20.0 - m2));
+}
+
+// The shares, as seenShare() gives them, times the basis, added up.
+struct Sums
+{
+  vec2 ones;
+  mat2 slopes;     // a column for x, one for y
+  mat2 bends;      // a column for x^2 - m2, one for y^2 - m2
+  vec2 twist;      // for xy
+  float squares;   // of the shares themselves
+  float variances; // squares of standard errors
+  bool isPenumbra; // are all texels partly lit? If not, the sums are unfinished
+};
+
+// `own` is taken from all shares: squares of small numbers lose fewer digits.
+Sums addUp(sampler2D source, Window window, float own)
+{
+  Sums sums = Sums(vec2(0.0), mat2(0.0), mat2(0.0), vec2(0.0), 0.0, 0.0, true);
+  // Software OpenGL also executes what a condition spares a texel, but for loops that it cannot unroll.
+  ivec2 size = reconstruction * window.size;
+  for (int j = 0; j < size.y && sums.isPenumbra; ++j)
+  {
+    for (int i = 0; i < size.x && sums.isPenumbra; ++i)
+    {
+      vec2 share = seenShare(source, window.first + ivec2(i, j));
+      sums.isPenumbra = share.r > 0.0 && share.r < 1.0;
+      share.r -= own;
+      vec2 p = vec2(float(i), float(j)) - window.middle;
+      sums.ones += share;
+      sums.slopes += outerProduct(share, p);
+      sums.bends += outerProduct(share, p * p - window.m2);
+      sums.twist += p.x * p.y * share;
+      sums.squares += share.r * share.r;
+      sums.variances += share.g * share.g;
+    }
+  }
+  return sums;
+}
+
+// A window's quadratic.
 struct Fit
 {
-  vec2 share;       // as seenShare()
-  float variance;   // what is left of the variance of a texel's own count, were the texels' errors independent
+  vec2 share;       // at a texel, as seenShare()
+  float variance;   // what is left there of the variance of a count, were the texels' errors independent
   float residual;   // root mean square of what the quadratic leaves of the shares, for its degrees of freedom
   float error;      // root mean square of the texels' own standard errors
   bool isPenumbra;  // is the window on the receiver, and are all of its texels partly lit?
@@ -48,54 +103,26 @@ struct Fit
 // The window has `size` texels from texel + first on; `own` is the texel's share.
 Fit fitWindow(sampler2D source, ivec2 texel, ivec2 first, ivec2 size, vec2 own)
 {
-  ivec2 low = texel + first;
-  if (any(lessThan(low, ivec2(0))) || any(greaterThan(low + size, regionSize)))
+  Window w = makeWindow(texel + first, size);
+  if (any(lessThan(w.first, ivec2(0))) || any(greaterThan(w.first + size, regionSize)))
   {
     return Fit(own, 1.0, 0.0, 1.0, false);
   }
-  // From the window's middle, the basis 1, x, y, x^2 - m2, y^2 - m2, xy is orthogonal. The mean squares of its
-  // functions are 1, m2, m2, b, b and the product of both m2, where m2 and b are the mean of x^2 and its variance
-  // over a row; y has its own.
-  vec2 s = vec2(size);
-  float n = s.x * s.y;
-  vec2 middle = 0.5 * (s - 1.0);
-  vec2 m2 = (s * s - 1.0) / 12.0;
-  vec2 b = m2 * ((3.0 * s * s - 7.0) / 20.0 - m2);
-  vec2 sum = vec2(0.0);
-  mat2 slopes = mat2(0.0); // a column for x, one for y
-  mat2 bends = mat2(0.0);
-  vec2 twist = vec2(0.0);
-  float squares = 0.0;
-  float variances = 0.0;
-  bool isPenumbra = true;
-  // Software OpenGL fits windows of texels that need none as well, unless it comes to a loop that it cannot unroll.
-  ivec2 end = reconstruction * size;
-  for (int j = 0; j < end.y && isPenumbra; ++j)
-  {
-    for (int i = 0; i < end.x && isPenumbra; ++i)
-    {
-      vec2 share = seenShare(source, low + ivec2(i, j));
-      isPenumbra = isPenumbra && share.r > 0.0 && share.r < 1.0;
-      variances += share.g * share.g;
-      share.r -= own.r; // squares of small numbers lose fewer digits
-      vec2 p = vec2(float(i), float(j)) - middle;
-      sum += share;
-      slopes += outerProduct(share, p);
-      bends += outerProduct(share, p * p - m2);
-      twist += p.x * p.y * share;
-      squares += share.r * share.r;
-    }
-  }
-  float explained = sum.r * sum.r + slopes[0].r * slopes[0].r / m2.x + slopes[1].r * slopes[1].r / m2.y +
-    bends[0].r * bends[0].r / b.x + bends[1].r * bends[1].r / b.y + twist.r * twist.r / (m2.x * m2.y);
+  Sums s = addUp(source, w, own.r);
+  float n = float(size.x * size.y);
+  float m22 = w.m2.x * w.m2.y; // the mean of (xy)^2
+  vec2 slopes = vec2(s.slopes[0].r, s.slopes[1].r);
+  vec2 bends = vec2(s.bends[0].r, s.bends[1].r);
+  float explained = (s.ones.r * s.ones.r + dot(slopes, slopes / w.m2) + dot(bends, bends / w.b) +
+    s.twist.r * s.twist.r / m22) / n;
   // The basis at the texel.
-  vec2 p = -vec2(first) - middle;
-  vec2 q = p * p - m2;
+  vec2 p = -vec2(first) - w.middle;
+  vec2 q = p * p - w.m2;
   float pq = p.x * p.y;
-  vec2 value = (sum + slopes * (p / m2) + bends * (q / b) + twist * pq / (m2.x * m2.y)) / n;
-  float variance = (1.0 + dot(p, p / m2) + dot(q, q / b) + pq * pq / (m2.x * m2.y)) / n;
-  return Fit(vec2(own.r + value.r, value.g), variance, sqrt(max(squares - explained / n, 0.0) / max(n - 6.0, 1.0)),
-    max(sqrt(variances / n), 1e-9), isPenumbra);
+  vec2 share = (s.ones + s.slopes * (p / w.m2) + s.bends * (q / w.b) + s.twist * pq / m22) / n;
+  float variance = (1.0 + dot(p, p / w.m2) + dot(q, q / w.b) + pq * pq / m22) / n;
+  return Fit(vec2(own.r + share.r, share.g), variance, sqrt(max(s.squares - explained, 0.0) / (n - 6.0)),
+    max(sqrt(s.variances / n), 1e-9), s.isPenumbra);
 }
 
 // The part of a fit to be taken whose residual is that much of its error: where the quadratic explains the
@@ -131,9 +158,8 @@ vec2 averageSides(sampler2D source, ivec2 texel, vec2 own)
   return sum.xy / sum.z;
 }
 
-// Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel: within
-// penumbras, shares are fitted in windows as wide as a quadratic explains. Rendering/README.md says what that
-// brings.
+// Within penumbras, what windows as wide as a quadratic explains say. Rendering/README.md tells what that brings,
+// and where the limits come from.
 vec2 reconstructShare(sampler2D source, ivec2 texel)
 {
   vec2 own = seenShare(source, texel);
