@@ -34,54 +34,95 @@ vec2 seenShare(sampler2D source, ivec2 texel)
   return texelFetch(source, texel - sharesFirstTexel, 0).rg;
 }
 
-// The quadratic that fits the shares of a window of texels best, by least squares (Savitzky and Golay 1964, in
-// two dimensions): what it is at the centre.
-struct Fit
+// Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel. Within
+// penumbras, the shares of a window of texels are fitted by a quadratic, by least squares (Savitzky and Golay
+// 1964, in two dimensions). From the window's middle, its basis is orthogonal: 1, x, y, x^2 - m2, y^2 - m2, xy.
+struct Window
 {
-  vec2 share;       // as seenShare()
-  float residual;   // root mean square of what the quadratic leaves of the shares, for its degrees of freedom
-  float error;      // root mean square of the texels' own standard errors
-  bool isPenumbra;  // are all texels partly lit?
+  ivec2 first; // texel of the receiver
+  ivec2 size;
+  vec2 middle; // from the first texel
+  vec2 m2;     // means over the window: of x^2 and y^2,
+  vec2 b;      // and of the squares of x^2 - m2 and y^2 - m2
 };
 
-Fit fitWindow(sampler2D source, ivec2 texel, int radius, vec2 centre)
+Window makeWindow(ivec2 first, ivec2 size)
 {
-  // The basis 1, x, y, xy, x^2 - m2, y^2 - m2 is orthogonal over the window; m2 and m4 are the means of x^2
-  // and x^4 over a row.
-  float r = float(radius);
-  float n = (2.0 * r + 1.0) * (2.0 * r + 1.0);
-  float m2 = r * (r + 1.0) / 3.0;
-  float m4 = m2 * (3.0 * r * r + 3.0 * r - 1.0) / 5.0;
-  vec2 sum = vec2(0.0);
-  vec2 curvature = vec2(0.0);
-  vec4 others = vec4(0.0); // x, y, x^2 - m2, y^2 - m2
-  float twist = 0.0;
-  float squares = 0.0;
-  float variances = 0.0;
-  bool isPenumbra = true;
-  for (int j = -radius; j <= radius; ++j)
+  vec2 s = vec2(size);
+  vec2 m2 = (s * s - 1.0) / 12.0;
+  return Window(first, size, 0.5 * (s - 1.0), m2, m2 * ((3.0 * s * s - 7.0) / 20.0 - m2));
+}
+
+// The shares, as seenShare() gives them, times the basis, added up.
+struct Sums
+{
+  vec2 ones;
+  mat2 slopes;     // a column for x, one for y
+  mat2 bends;      // a column for x^2 - m2, one for y^2 - m2
+  vec2 twist;      // for xy
+  float squares;   // of the shares themselves
+  float variances; // squares of standard errors
+  bool isPenumbra; // are all texels partly lit? If not, the sums are unfinished
+};
+
+// `own` is taken from all shares: squares of small numbers lose fewer digits.
+Sums addUp(sampler2D source, Window window, float own)
+{
+  Sums sums = Sums(vec2(0.0), mat2(0.0), mat2(0.0), vec2(0.0), 0.0, 0.0, true);
+  // Software OpenGL also executes what a condition spares a texel, but for loops that it cannot unroll.
+  ivec2 size = reconstruction * window.size;
+  for (int j = 0; j < size.y && sums.isPenumbra; ++j)
   {
-    for (int i = -radius; i <= radius; ++i)
+    for (int i = 0; i < size.x && sums.isPenumbra; ++i)
     {
-      vec2 s = seenShare(source, texel + ivec2(i, j));
-      isPenumbra = isPenumbra && s.r > 0.0 && s.r < 1.0;
-      variances += s.g * s.g;
-      s.r -= centre.r; // squares of small numbers lose fewer digits
-      vec2 p = vec2(float(i), float(j));
-      vec2 q = p * p - m2;
-      sum += s;
-      curvature += (q.x + q.y) * s;
-      others += vec4(p, q) * s.r;
-      twist += p.x * p.y * s.r;
-      squares += s.r * s.r;
+      vec2 share = seenShare(source, window.first + ivec2(i, j));
+      sums.isPenumbra = share.r > 0.0 && share.r < 1.0;
+      share.r -= own;
+      vec2 p = vec2(float(i), float(j)) - window.middle;
+      sums.ones += share;
+      sums.slopes += outerProduct(share, p);
+      sums.bends += outerProduct(share, p * p - window.m2);
+      sums.twist += p.x * p.y * share;
+      sums.squares += share.r * share.r;
+      sums.variances += share.g * share.g;
     }
   }
-  float bend = n * (m4 - m2 * m2);
-  squares -= sum.r * sum.r / n + dot(others.xy, others.xy) / (n * m2) + dot(others.zw, others.zw) / bend +
-    twist * twist / (n * m2 * m2);
-  vec2 share = sum / n - m2 * curvature / bend;
-  return Fit(vec2(centre.r + share.r, share.g), sqrt(max(squares, 0.0) / (n - 6.0)),
-    max(sqrt(variances / n), 1e-9), isPenumbra);
+  return sums;
+}
+
+// A window's quadratic.
+struct Fit
+{
+  vec2 share;       // at a texel, as seenShare()
+  float variance;   // what is left there of the variance of a count, were the texels' errors independent
+  float residual;   // root mean square of what the quadratic leaves of the shares, for its degrees of freedom
+  float error;      // root mean square of the texels' own standard errors
+  bool isPenumbra;  // is the window on the receiver, and are all of its texels partly lit?
+};
+
+// The window has `size` texels from texel + first on; `own` is the texel's share.
+Fit fitWindow(sampler2D source, ivec2 texel, ivec2 first, ivec2 size, vec2 own)
+{
+  Window w = makeWindow(texel + first, size);
+  if (any(lessThan(w.first, ivec2(0))) || any(greaterThan(w.first + size, regionSize)))
+  {
+    return Fit(own, 1.0, 0.0, 1.0, false);
+  }
+  Sums s = addUp(source, w, own.r);
+  float n = float(size.x * size.y);
+  float m22 = w.m2.x * w.m2.y; // the mean of (xy)^2
+  vec2 slopes = vec2(s.slopes[0].r, s.slopes[1].r);
+  vec2 bends = vec2(s.bends[0].r, s.bends[1].r);
+  float explained = (s.ones.r * s.ones.r + dot(slopes, slopes / w.m2) + dot(bends, bends / w.b) +
+    s.twist.r * s.twist.r / m22) / n;
+  // The basis at the texel.
+  vec2 p = -vec2(first) - w.middle;
+  vec2 q = p * p - w.m2;
+  float pq = p.x * p.y;
+  vec2 share = (s.ones + s.slopes * (p / w.m2) + s.bends * (q / w.b) + s.twist * pq / m22) / n;
+  float variance = (1.0 + dot(p, p / w.m2) + dot(q, q / w.b) + pq * pq / m22) / n;
+  return Fit(vec2(own.r + share.r, share.g), variance, sqrt(max(s.squares - explained, 0.0) / (n - 6.0)),
+    max(sqrt(s.variances / n), 1e-9), s.isPenumbra);
 }
 
 // The part of a fit to be taken whose residual is that much of its error: where the quadratic explains the
@@ -92,31 +133,51 @@ float getTrust(Fit fit, float low, float high)
   return fit.isPenumbra ? 1.0 - smoothstep(low, high, fit.residual / fit.error) : 0.0;
 }
 
-// Neighbouring texels see an occluder's edge cross different samples, so their errors partly cancel: within
-// penumbras, shares are fitted in windows as wide as a quadratic explains. Measured on 256 x 256 texels at n =
-// 1024, this takes the RMS error from 1.1e-3 to 4e-4 in a wide penumbra, for a tenth more time.
+// Adds a fit to a sum of shares and their weights, the inverse of their variances.
+void addFit(inout vec3 sum, Fit fit, float trust)
+{
+  sum += trust / fit.variance * vec3(fit.share, 1.0);
+}
+
+// At a crease: the mean of the texel's own count and of what the windows say that lie to one side of it, halves
+// of 5x5 texels. Those that the crease cuts are not trusted.
+vec2 averageSides(sampler2D source, ivec2 texel, vec2 own)
+{
+  vec3 sum = vec3(own, 1.0);
+  // The three degrees of freedom that 3x3 texels leave say little; what the fit changes says more.
+  Fit fit = fitWindow(source, texel, ivec2(-1), ivec2(3), own);
+  float change = abs(fit.share.r - own.r) / fit.error;
+  addFit(sum, fit, fit.isPenumbra ? 1.0 - smoothstep(0.8, 2.5, change) : 0.0);
+  for (int side = -2; side <= 0; side += 2)
+  {
+    fit = fitWindow(source, texel, ivec2(side, -2), ivec2(3, 5), own);
+    addFit(sum, fit, getTrust(fit, 0.8, 1.4));
+    fit = fitWindow(source, texel, ivec2(-2, side), ivec2(5, 3), own);
+    addFit(sum, fit, getTrust(fit, 0.8, 1.4));
+  }
+  return sum.xy / sum.z;
+}
+
+// Within penumbras, what windows as wide as a quadratic explains say. Rendering/README.md tells what that brings,
+// and where the limits come from.
 vec2 reconstructShare(sampler2D source, ivec2 texel)
 {
-  vec2 share = seenShare(source, texel);
-  int room = min(min(texel.x, texel.y), min(regionSize.x - 1 - texel.x, regionSize.y - 1 - texel.y));
-  if (share.r <= 0.0 || share.r >= 1.0 || room < 1)
+  vec2 own = seenShare(source, texel);
+  if (own.r <= 0.0 || own.r >= 1.0)
   {
-    return share;
+    return own;
   }
-  vec2 centre = share;
-  // The three degrees of freedom that 3x3 texels leave say little; what the fit changes says more.
-  Fit fit = fitWindow(source, texel, 1, centre);
-  float change = abs(fit.share.r - centre.r) / fit.error;
-  share = mix(share, fit.share, fit.isPenumbra ? 1.0 - smoothstep(0.5, 2.0, change) : 0.0);
-  if (room >= 2)
+  Fit fit = fitWindow(source, texel, ivec2(-2), ivec2(5), own);
+  float trust = getTrust(fit, 1.1, 1.4);
+  vec2 share = fit.share;
+  if (trust < 1.0)
   {
-    fit = fitWindow(source, texel, 2, centre);
-    share = mix(share, fit.share, getTrust(fit, 1.0, 1.3));
+    share = mix(averageSides(source, texel, own), share, trust);
   }
-  if (room >= 3)
+  if (trust > 0.0)
   {
-    fit = fitWindow(source, texel, 3, centre);
-    share = mix(share, fit.share, getTrust(fit, 0.9, 1.1));
+    fit = fitWindow(source, texel, ivec2(-3), ivec2(7), own);
+    share = mix(share, fit.share, getTrust(fit, 0.7, 1.3));
   }
   return vec2(clamp(share.r, 0.0, 1.0), share.g);
 }

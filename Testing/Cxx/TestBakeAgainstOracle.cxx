@@ -119,6 +119,21 @@ TEST_P(Occluded, IsWithinBoundsAt1024Samples)
   EXPECT_LE(this->Measure(1024).RootMeanSquare, 7e-4);
 }
 
+// On texels so small that neighbours have something to say: across creases, too, filters bring
+// shares nearer to the truth than counts alone.
+TEST_P(Occluded, IsNearerWithReconstruction)
+{
+  TestScene scene = this->GetParam();
+  scene.Texels = glm::ivec2(80, 80);
+  scene.Settings.LightSamples = 256;
+  const TestError filtered = CompareWithOracle(scene);
+  scene.Settings.Reconstruction = false;
+  const TestError counted = CompareWithOracle(scene);
+  Report(scene.Name, scene.Settings.LightSamples, filtered);
+  Report(scene.Name + " without reconstruction", scene.Settings.LightSamples, counted);
+  EXPECT_LT(filtered.RootMeanSquare, counted.RootMeanSquare);
+}
+
 // Without the occluders, the same scenes are far out: the bounds above would notice.
 TEST_P(Occluded, IsFarFromUnoccluded)
 {
