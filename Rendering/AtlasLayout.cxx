@@ -8,6 +8,29 @@
 
 namespace penumbra
 {
+namespace
+{
+
+/// The side of a slot for so many texels: all blocks whose centres are less than a block away from
+/// them, the first of which is the gutter before them.
+int PadSide(int texels)
+{
+  constexpr int Block = AtlasLayout::Block;
+  return (AtlasLayout::GutterTexels + texels + Block / 2 + Block - 1) / Block * Block;
+}
+
+} // namespace
+
+TexelRectangle AtlasRegion::Place(const TexelRectangle& texels) const
+{
+  TexelRectangle placed = texels;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    placed.Low[axis] -= placed.Low[axis] == 0 ? this->GutterLow[axis] : 0;
+    placed.High[axis] += placed.High[axis] == this->Size[axis] ? this->GutterHigh[axis] : 0;
+  }
+  return { placed.Low + this->Origin, placed.High + this->Origin };
+}
 
 AtlasLayout::AtlasLayout(const std::vector<glm::ivec2>& sizes, int largestSide)
   : Gutter(sizes.size() > 1 ? GutterTexels : 0)
@@ -17,11 +40,13 @@ AtlasLayout::AtlasLayout(const std::vector<glm::ivec2>& sizes, int largestSide)
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
   std::stable_sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return sizes[a].y > sizes[b].y; });
+  const auto pad = [&](const glm::ivec2& size)
+  { return this->Gutter > 0 ? glm::ivec2(PadSide(size.x), PadSide(size.y)) : size; };
   double area = 0.0;
   int width = 0;
   for (const glm::ivec2& size : sizes)
   {
-    const glm::ivec2 padded = size + 2 * this->Gutter;
+    const glm::ivec2 padded = pad(size);
     area += static_cast<double>(padded.x) * padded.y;
     width = std::max(width, padded.x);
   }
@@ -32,13 +57,14 @@ AtlasLayout::AtlasLayout(const std::vector<glm::ivec2>& sizes, int largestSide)
   int used = 0; // a single receiver fills its texture: vtkSoftShadowFS.glsl relies on it
   for (const std::size_t i : order)
   {
-    const glm::ivec2 padded = sizes[i] + 2 * this->Gutter;
+    const glm::ivec2 padded = pad(sizes[i]);
     if (place.x + padded.x > width)
     {
       place = { 0, place.y + shelf };
       shelf = 0;
     }
-    this->Regions[i] = { place + this->Gutter, sizes[i] };
+    this->Regions[i] = { place + this->Gutter, sizes[i], glm::ivec2(this->Gutter),
+      padded - sizes[i] - this->Gutter };
     place.x += padded.x;
     used = std::max(used, place.x);
     shelf = std::max(shelf, padded.y);

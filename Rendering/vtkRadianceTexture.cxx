@@ -82,7 +82,6 @@ bool vtkRadianceTexture::Allocate(
     return false;
   }
   this->HasVariance = withVariance;
-  // The gutter around it is cut off.
   this->Clear({ glm::ivec2(0), size }, penumbra::WholeRectangle(size));
   return true;
 }
@@ -124,14 +123,9 @@ void vtkRadianceTexture::BindAsTarget(
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglViewport(0, 0, this->Layout.Size.x, this->Layout.Size.y);
   state->vtkglEnable(GL_SCISSOR_TEST);
-  penumbra::TexelRectangle padded = rectangle;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    padded.Low[axis] -= rectangle.Low[axis] == 0 ? this->Layout.Gutter : 0;
-    padded.High[axis] += rectangle.High[axis] == region.Size[axis] ? this->Layout.Gutter : 0;
-  }
-  const glm::ivec2 origin = region.Origin + padded.Low, size = padded.GetSize();
-  state->vtkglScissor(origin.x, origin.y, size.x, size.y);
+  const penumbra::TexelRectangle placed = region.Place(rectangle);
+  const glm::ivec2 size = placed.GetSize();
+  state->vtkglScissor(placed.Low.x, placed.Low.y, size.x, size.y);
 }
 
 bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
@@ -262,12 +256,6 @@ bool vtkRadianceTexture::IsAllocated() const
 vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 {
   return this->Irradiance;
-}
-
-vtkRadianceTexture::Region vtkRadianceTexture::GetPaddedRegion(std::size_t region) const
-{
-  const Region& inner = this->Layout.Regions[region];
-  return { inner.Origin - this->Layout.Gutter, inner.Size + 2 * this->Layout.Gutter };
 }
 
 std::size_t vtkRadianceTexture::CountTexels(bool withMipmaps) const

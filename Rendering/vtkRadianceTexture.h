@@ -61,11 +61,6 @@ public:
   const std::vector<Region>& GetRegions() const { return this->Layout.Regions; }
 
   /**
-   * A region with the gutter around it.
-   */
-  Region GetPaddedRegion(std::size_t region) const;
-
-  /**
    * Width and height of the whole texture.
    */
   const glm::ivec2& GetSize() const { return this->Layout.Size; }

@@ -78,8 +78,10 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
     program->SetUniformf("scale", this->Scale);
     for (std::size_t i = 0; i < ambient.size(); ++i)
     {
-      const vtkRadianceTexture::Region place = radiance->GetPaddedRegion(i);
-      window->GetState()->vtkglScissor(place.Origin.x, place.Origin.y, place.Size.x, place.Size.y);
+      const vtkRadianceTexture::Region& region = radiance->GetRegions()[i];
+      const penumbra::TexelRectangle place = region.Place(penumbra::WholeRectangle(region.Size));
+      const glm::ivec2 placeSize = place.GetSize();
+      window->GetState()->vtkglScissor(place.Low.x, place.Low.y, placeSize.x, placeSize.y);
       const glm::vec3 incoming(ambient[i]);
       program->SetUniform3f("ambient", &incoming.x);
       penumbra::DrawFullScreenTriangle();
