@@ -157,8 +157,9 @@ bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
 
 bool vtkRadianceTexture::GenerateMipmaps()
 {
-  this->HasMipmaps = this->HasMipmaps || this->GenerateMipmaps(this->Irradiance);
-  return this->HasMipmaps;
+  const bool isDone = this->GenerateMipmaps(this->Irradiance);
+  this->HasMipmaps = this->HasMipmaps || isDone;
+  return isDone;
 }
 
 void vtkRadianceTexture::SetMaximumAnisotropy(int ratio)
