@@ -79,12 +79,15 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
     for (std::size_t i = 0; i < ambient.size(); ++i)
     {
       const vtkRadianceTexture::Region& region = radiance->GetRegions()[i];
-      const penumbra::TexelRectangle place = region.Place(penumbra::WholeRectangle(region.Size));
-      const glm::ivec2 placeSize = place.GetSize();
-      window->GetState()->vtkglScissor(place.Low.x, place.Low.y, placeSize.x, placeSize.y);
       const glm::vec3 incoming(ambient[i]);
       program->SetUniform3f("ambient", &incoming.x);
-      penumbra::DrawFullScreenTriangle();
+      for (const penumbra::TexelRectangle& part :
+        region.Place(penumbra::WholeRectangle(region.Size)))
+      {
+        const glm::ivec2 partSize = part.GetSize();
+        window->GetState()->vtkglScissor(part.Low.x, part.Low.y, partSize.x, partSize.y);
+        penumbra::DrawFullScreenTriangle();
+      }
     }
   }
   if (!radiance->GenerateMipmaps(this->Texture))
