@@ -113,6 +113,60 @@ std::vector<Slot> MakeSlots(const std::vector<AtlasReceiver>& receivers, int lar
   return slots;
 }
 
+/// Slots side by side on shelves.
+struct Shelves
+{
+  std::vector<glm::ivec2> Places; ///< of the slots, in their order
+  glm::ivec2 Size{ 0 };
+};
+
+Shelves PlaceOnShelves(const std::vector<Slot>& slots, int width)
+{
+  Shelves shelves;
+  glm::ivec2 place(0);
+  int shelf = 0;
+  for (const Slot& slot : slots)
+  {
+    if (place.x + slot.Size.x > width)
+    {
+      place = { 0, place.y + shelf };
+      shelf = 0;
+    }
+    shelves.Places.push_back(place);
+    place.x += slot.Size.x;
+    shelf = std::max(shelf, slot.Size.y);
+    shelves.Size = glm::max(shelves.Size, place + glm::ivec2(0, slot.Size.y));
+  }
+  return shelves;
+}
+
+/// The shelves that leave least of the texture empty, from a square's side to twice that.
+Shelves PlaceOnBestShelves(const std::vector<Slot>& slots, int largestSide)
+{
+  double area = 0.0;
+  int widest = 0;
+  for (const Slot& slot : slots)
+  {
+    area += GetArea(slot.Size);
+    widest = std::max(widest, slot.Size.x);
+  }
+  constexpr int Widths = 16;
+  Shelves best;
+  for (int i = 0; i <= Widths; ++i)
+  {
+    const double wanted = std::sqrt(area) * (1.0 + static_cast<double>(i) / Widths);
+    const double width = std::min(std::ceil(wanted), static_cast<double>(largestSide));
+    Shelves shelves = PlaceOnShelves(slots, std::max(widest, static_cast<int>(width)));
+    const bool fits = shelves.Size.y <= largestSide, didFit = best.Size.y <= largestSide;
+    const bool isSmaller = GetArea(shelves.Size) < GetArea(best.Size);
+    if (i == 0 || (fits != didFit ? fits : isSmaller))
+    {
+      best = std::move(shelves);
+    }
+  }
+  return best;
+}
+
 /// Where two triangles lie in their slot.
 std::pair<AtlasRegion, AtlasRegion> PlaceTwo(const glm::ivec2& first, const glm::ivec2& second,
   const glm::ivec2& place, const glm::ivec2& slot)
@@ -203,24 +257,12 @@ AtlasLayout::AtlasLayout(const std::vector<AtlasReceiver>& receivers, int larges
   std::vector<Slot> slots = MakeSlots(receivers, largestSide);
   std::stable_sort(
     slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.Size.y > b.Size.y; });
-  double area = 0.0;
-  int width = 0;
-  for (const Slot& slot : slots)
+  const Shelves shelves = PlaceOnBestShelves(slots, largestSide);
+  this->Size = shelves.Size;
+  for (std::size_t i = 0; i < slots.size(); ++i)
   {
-    area += GetArea(slot.Size);
-    width = std::max(width, slot.Size.x);
-  }
-  width = std::max(width, std::min(static_cast<int>(std::ceil(std::sqrt(area))), largestSide));
-
-  glm::ivec2 place(0);
-  int shelf = 0;
-  for (const Slot& slot : slots)
-  {
-    if (place.x + slot.Size.x > width)
-    {
-      place = { 0, place.y + shelf };
-      shelf = 0;
-    }
+    const Slot& slot = slots[i];
+    const glm::ivec2& place = shelves.Places[i];
     const glm::ivec2& size = receivers[slot.First].Size;
     if (slot.Second)
     {
@@ -232,9 +274,6 @@ AtlasLayout::AtlasLayout(const std::vector<AtlasReceiver>& receivers, int larges
       this->Regions[slot.First] = { place + this->Gutter, size, glm::ivec2(this->Gutter),
         slot.Size - size - this->Gutter };
     }
-    place.x += slot.Size.x;
-    shelf = std::max(shelf, slot.Size.y);
-    this->Size = glm::max(this->Size, place + glm::ivec2(0, slot.Size.y));
   }
 }
 

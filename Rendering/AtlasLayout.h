@@ -75,9 +75,9 @@ private:
 };
 
 /**
- * Regions side by side on shelves, the highest first, in a texture that is about square. Around
- * each of several there is a gutter, so that mip levels up to MipLevels never mix two receivers; a
- * single one fills its texture, which has all levels.
+ * Regions side by side on shelves, the highest first, in a texture that is about square, or wider
+ * where that leaves less of it empty. Around each of several there is a gutter, so that mip levels
+ * up to MipLevels never mix two receivers; a single one fills its texture, which has all levels.
  *
  * What belongs to a receiver is whole blocks of 2^MipLevels texels a side, which are the texels of
  * the last level. Linear interpolation reads those whose centres are less than a block away, along
