@@ -29,6 +29,11 @@ struct vtkRadianceBaker::Job
   std::size_t KeptBytes = 0;         ///< that are left of Wanted's
   Report Result;
 
+  bool HasTolerance() const
+  {
+    return this->Receiver.Settings.ErrorTolerance > 0.0 && this->Wanted.MostSamples == 0;
+  }
+
   /// The texels that are baked, finer ones where there is Supersampling, for those that are wanted.
   penumbra::TexelRectangle FindResolved() const
   {

@@ -246,9 +246,8 @@ bool OccluderSelector::MayBlock(
     !search.Region.LiesInLight(a, b, c, glm::dot(search.LightNormal, part.Uncertainty));
 }
 
-void OccluderSelector::AddTriangle(
-  const Triangle& triangle, const Part& part, const Search& search, std::vector<Triangle>& selected,
-  Caster& caster)
+void OccluderSelector::AddTriangle(const Triangle& triangle, const Part& part, const Search& search,
+  std::vector<Triangle>& selected, Caster& caster)
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];

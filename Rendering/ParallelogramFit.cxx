@@ -179,7 +179,7 @@ bool IsParallelogram(const std::vector<PlanePoint>& hull, double tolerance)
 
 } // namespace
 
-std::optional<Parallelogram> FitParallelogram(
+std::optional<FittedParallelogram> FitParallelogram(
   const std::vector<glm::dvec3>& points, const glm::dvec3& normal, double rounding)
 {
   if (points.size() < 3)
@@ -228,12 +228,14 @@ std::optional<Parallelogram> FitParallelogram(
   {
     // From the input's own points: what was exact stays exact.
     const glm::dvec3& corner = points[hull.front().Index];
-    return Parallelogram{ corner, points[hull[1].Index] - corner,
-      points[hull.back().Index] - corner };
+    return FittedParallelogram{ { corner, points[hull[1].Index] - corner,
+                                  points[hull.back().Index] - corner },
+      hull.size() == 3 };
   }
   const Rectangle fit = EnclosingRectangle(hull);
   const auto toWorld = [&](const glm::dvec2& p) { return p.x * axisX + p.y * axisY; };
-  return Parallelogram{ points[0] + toWorld(fit.Corner), toWorld(fit.EdgeX), toWorld(fit.EdgeY) };
+  return FittedParallelogram{ { points[0] + toWorld(fit.Corner), toWorld(fit.EdgeX),
+    toWorld(fit.EdgeY) } };
 }
 
 } // namespace penumbra

@@ -16,6 +16,13 @@
 namespace penumbra
 {
 
+/// What FitParallelogram() answers.
+struct FittedParallelogram : Parallelogram
+{
+  /// The points fill its lower left half: corner, corner + EdgeX, corner + EdgeY.
+  bool IsTriangle = false;
+};
+
 /**
  * Fits a parallelogram around coplanar points (H&H 1997, section 3.4), by the shape of their convex
  * hull:
@@ -31,7 +38,7 @@ namespace penumbra
  * off by the rounding of their type: their size times the type's epsilon. Nothing is returned for
  * points on a line, fewer than three, or coordinates that are not finite.
  */
-PENUMBRARENDERING_EXPORT std::optional<Parallelogram> FitParallelogram(
+PENUMBRARENDERING_EXPORT std::optional<FittedParallelogram> FitParallelogram(
   const std::vector<glm::dvec3>& points, const glm::dvec3& normal, double rounding = 0.0);
 
 } // namespace penumbra

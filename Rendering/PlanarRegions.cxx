@@ -250,12 +250,13 @@ std::string FitRegion(
          << "; or ProxyPlane on, which approximates";
     return text.str();
   }
-  const std::optional<Parallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
+  const std::optional<FittedParallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
   if (!base)
   {
     return "its points lie on a line; allowed: polygons that span an area";
   }
   region.Base = *base;
+  region.IsTriangle = base->IsTriangle;
   return "";
 }
 

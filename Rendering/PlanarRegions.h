@@ -31,6 +31,7 @@ struct PlanarRegion
 {
   std::vector<int> Polygons;
   Parallelogram Base;
+  bool IsTriangle = false; ///< it fills the lower left half of its base
 };
 
 /// The problem of a mesh with a coordinate that is not finite, or too large (Coordinates.h).

@@ -63,19 +63,26 @@ glm::dmat4 MakeMap(
 /// The uniforms of vtkSoftShadowFS.glsl, an element for each receiver.
 struct ReceiverUniforms
 {
+  /// Far more than u + v is of any receiver.
+  static constexpr float NoLimit = 1e9f;
+
   std::vector<glm::mat4> Maps;
-  std::vector<glm::vec4> Places;
-  std::vector<glm::vec3> Ambient, Reflectance;
+  std::vector<glm::vec4> Places, Ambient;
+  std::vector<glm::vec3> Reflectance;
 
   /// `inset`: how many texels inside the region's border (u, v) begin and end.
   void Add(const glm::dmat4& map, const ReceiverSettings& settings,
     const vtkRadianceTexture::Region& region, const glm::vec2& textureSize, float inset)
   {
     this->Maps.emplace_back(map);
-    this->Ambient.emplace_back(settings.AmbientRadiance);
+    const bool isHalf = region.Half != AtlasHalf::Whole;
+    this->Ambient.emplace_back(glm::vec3(settings.AmbientRadiance), isHalf ? 1.0f : NoLimit);
     this->Reflectance.emplace_back(settings.Reflectance);
-    this->Places.emplace_back((glm::vec2(region.Origin) + inset) / textureSize,
-      (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
+    // Where a region is turned, (u, v) = (0, 0) is its end, and its size is negative.
+    const auto step = static_cast<float>(region.GetStep());
+    const glm::vec2 start(step > 0.0f ? region.Origin : region.Origin + region.Size);
+    this->Places.emplace_back((start + step * inset) / textureSize,
+      step * (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
   }
 
   void Set(vtkShaderProgram* program, const char* maps)
@@ -83,7 +90,7 @@ struct ReceiverUniforms
     const auto count = static_cast<int>(this->Maps.size());
     program->SetUniformMatrix4x4v(maps, count, &this->Maps.front()[0].x);
     program->SetUniform4fv("penumbraPlaces", count, &this->Places.front().x);
-    program->SetUniform3fv("penumbraAmbient", count, &this->Ambient.front().x);
+    program->SetUniform4fv("penumbraAmbient", count, &this->Ambient.front().x);
     program->SetUniform3fv("penumbraReflectance", count, &this->Reflectance.front().x);
   }
 };

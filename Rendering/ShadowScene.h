@@ -73,6 +73,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   std::size_t Surface = 0;
   int Region = 0;
   Parallelogram Base;
+  /// It fills the lower left half of its base, where u + v <= 1: what is beyond is baked, but not
+  /// shown.
+  bool IsTriangle = false;
   ReceiverSettings Settings;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
@@ -105,7 +108,8 @@ struct PENUMBRARENDERING_EXPORT ShadowScene
   /**
    * Sets the texels of the receivers from `first` on, which share a texture: along each edge as
    * many of TexelSize as cover it (0: 512 along the receiver's longest edge). Where they would pass
-   * the limits above, the texels grow; the answer is by how much, 1 if not at all.
+   * the limits above, the texels grow; the answer is by how much, 1 if not at all. Triangles count
+   * with all of their texels, though they may share them when they are shown (AtlasLayout).
    */
   double ChooseTexels(std::size_t first);
 

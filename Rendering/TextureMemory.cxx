@@ -43,12 +43,12 @@ bool AsksForTheSame(const TextureNeed& a, const TextureNeed& b)
 
 double TextureNeed::GetBytes() const
 {
-  std::vector<glm::ivec2> sizes;
+  std::vector<AtlasReceiver> receivers;
   for (const TexelNeed& need : this->Receivers)
   {
-    sizes.push_back(need.Texels);
+    receivers.emplace_back(need.Texels, need.IsTriangle);
   }
-  const AtlasLayout layout(sizes, ShadowScene::MaximumTextureSide);
+  const AtlasLayout layout(receivers, ShadowScene::MaximumTextureSide);
   const auto texels = static_cast<double>(layout.CountTexels(false)),
              withMipmaps = static_cast<double>(layout.CountTexels(true));
   constexpr double Irradiance = 16.0, Factors = 4.0, Variance = 4.0;

@@ -23,6 +23,7 @@ struct TexelNeed
   glm::ivec2 Texels{ 1 };
   double PenumbraTexels = 0.0; ///< how wide its shadows' edges are: FindSharpestPenumbra()
   bool IsFixed = false;        ///< its texels are the few vertices of smooth light
+  bool IsTriangle = false;     ///< two of them may share a rectangle
 };
 
 /// The receivers of one texture.

@@ -100,6 +100,19 @@ bool HasMoreSamples(const vtkBakedProp::Entry& entry)
     [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
 }
 
+/// A receiver's texels: those that its region owns, and the others as they were baked apart.
+std::vector<glm::vec4> MergeHalves(const vtkRadianceTexture::Region& region,
+  const std::vector<glm::vec4>& owned, std::vector<glm::vec4> others)
+{
+  for (std::size_t i = 0; i < others.size(); ++i)
+  {
+    const int index = static_cast<int>(i);
+    others[i] =
+      region.Owns({ index % region.Size.x, index / region.Size.x }) ? owned[i] : others[i];
+  }
+  return others;
+}
+
 /// Takes a tile of about side^2 texels off a rectangle.
 penumbra::TexelRectangle TakeTile(penumbra::TexelRectangle& rectangle, int side)
 {
@@ -190,18 +203,18 @@ vtkBakedProp::Outcome vtkBakedProp::BakeAll(
 {
   this->Texture->ReleaseGraphicsResources();
   this->Entries = std::move(entries);
-  std::vector<glm::ivec2> sizes;
+  std::vector<penumbra::AtlasReceiver> receivers;
   bool withVariance = false;
   for (const Entry& entry : this->Entries)
   {
-    sizes.push_back(GetRegionSize(entry));
+    receivers.emplace_back(GetRegionSize(entry), entry.Settings.IsTriangle && entry.Vertices == 0);
     withVariance = withVariance || entry.Settings.Settings.ErrorTolerance > 0.0;
   }
-  this->IsTextured = this->Texture->Allocate(this->Window, sizes, withVariance);
+  this->IsTextured = this->Texture->Allocate(this->Window, receivers, withVariance);
   for (std::size_t i = 0; i < this->Entries.size() && this->IsTextured; ++i)
   {
     this->IsTextured =
-      this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(sizes[i]), draft);
+      this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(receivers[i].Size), draft);
   }
   if (!this->IsTextured)
   {
@@ -401,9 +414,15 @@ std::vector<glm::vec4> vtkBakedProp::Download(
   {
     return {}; // it went with its window
   }
+  std::vector<glm::vec4> shown;
   if (this->IsTextured && this->Entries[entry].Vertices == 0)
   {
-    return this->Texture->Download(this->Texture->GetRegions()[entry]).Irradiance;
+    const vtkRadianceTexture::Region& region = this->Texture->GetRegions()[entry];
+    shown = this->Texture->Download(region).Irradiance;
+    if (region.Half == penumbra::AtlasHalf::Whole)
+    {
+      return shown;
+    }
   }
   vtkNew<vtkRadianceBaker> baker;
   vtkNew<vtkRadianceTexture> texture;
@@ -413,7 +432,9 @@ std::vector<glm::vec4> vtkBakedProp::Download(
     texels = texture->Download(texture->GetRegions().front()).Irradiance;
   }
   texture->ReleaseGraphicsResources();
-  return texels;
+  return shown.empty() || texels.empty()
+    ? texels
+    : MergeHalves(this->Texture->GetRegions()[entry], shown, std::move(texels));
 }
 
 std::size_t vtkBakedProp::GetBytes() const

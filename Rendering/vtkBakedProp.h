@@ -9,7 +9,8 @@
  * it leaves is, to the bit, what a whole bake of the same scene gives.
  *
  * Receivers whose light is smooth have a few vertices instead of texels
- * (penumbra::ShadingVertices); a prop whose receivers have no shadow to show has no texture.
+ * (penumbra::ShadingVertices); a prop whose receivers have no shadow to show has no texture. Two
+ * triangles share a rectangle of texels (penumbra::AtlasLayout).
  */
 #ifndef vtkBakedProp_h
 #define vtkBakedProp_h
@@ -109,8 +110,9 @@ public:
   const std::vector<Entry>& GetEntries() const { return this->Entries; }
 
   /**
-   * A receiver's texels, as vtkRadianceTexture::Texels::Irradiance: those of the texture, or what
-   * its vertices stand for, baked anew. `window` must be current.
+   * A receiver's texels, as vtkRadianceTexture::Texels::Irradiance: those of the texture; what its
+   * vertices stand for, or lies in a half that is another triangle's, baked anew. `window` must be
+   * current.
    */
   std::vector<glm::vec4> Download(
     const penumbra::ShadowScene& scene, std::size_t entry, vtkOpenGLRenderWindow* window);

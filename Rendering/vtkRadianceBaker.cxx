@@ -102,24 +102,24 @@ std::vector<vtkRadianceBaker::Report> vtkRadianceBaker::Bake(const penumbra::Sha
       << window->GetClassName() << " must be initialized and current.");
     return {};
   }
-  std::vector<glm::ivec2> sizes;
+  std::vector<penumbra::AtlasReceiver> whole; // triangles, too: all of their texels are asked for
   for (const std::size_t i : receivers)
   {
-    sizes.push_back(scene.Receivers[i].Texels);
+    whole.emplace_back(scene.Receivers[i].Texels);
   }
   std::vector<Report> reports;
   vtkOpenGLState* state = window->GetState();
   state->Push();
-  if (!receivers.empty() && texture->Allocate(window, sizes))
+  if (!receivers.empty() && texture->Allocate(window, whole))
   {
     this->SetScene(scene);
     for (std::size_t i = 0; i < receivers.size(); ++i)
     {
       const double start = vtkTimerLog::GetUniversalTime();
       const penumbra::ReceiverPlan plan = this->Plan(receivers[i]);
-      Part whole;
-      whole.Rectangle = penumbra::WholeRectangle(sizes[i]);
-      reports.push_back(this->BakePart(plan, receivers[i], window, texture, i, whole));
+      Part all;
+      all.Rectangle = penumbra::WholeRectangle(whole[i].Size);
+      reports.push_back(this->BakePart(plan, receivers[i], window, texture, i, all));
       reports.back().Seconds = vtkTimerLog::GetUniversalTime() - start;
     }
   }
@@ -180,7 +180,9 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
   const penumbra::TexelRectangle& wanted = job.Wanted.Rectangle;
   const int factor = job.Plan.Supersampling;
   job.Resolved = job.FindResolved();
-  if (factor == 1)
+  // What the tolerance is measured on is all of the receiver's texels.
+  const bool isCut = job.HasTolerance() && place.Half != penumbra::AtlasHalf::Whole;
+  if (factor == 1 && !isCut)
   {
     texture->Clear(place, wanted);
     job.Target = texture;
@@ -203,7 +205,7 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
 bool vtkRadianceBaker::BakeLights(Job& job)
 {
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
-  const bool hasTolerance = settings.ErrorTolerance > 0.0 && job.Wanted.MostSamples == 0;
+  const bool hasTolerance = job.HasTolerance();
   job.Result.StoppedBy = hasTolerance    ? "ErrorTolerance"
     : settings.SolidAnglePerSample > 0.0 ? "SolidAnglePerSample"
                                          : "LightSamples";

@@ -290,11 +290,8 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   program->SetUniformi("hasShares", shares.HasTextures ? 1 : 0);
   program->SetUniformf("uniformShare", shares.Uniform);
   program->SetUniform2i("sharesFirstTexel", &shares.FirstTexel.x);
-  program->SetUniform2i("regionOrigin", &region.Origin.x);
-  program->SetUniform2i("regionSize", &region.Size.x);
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
-  target->BindAsTarget(region, strip, add);
   constexpr const char* samplers[] = { "shares", "greenShares", "blueShares" };
   std::vector<std::unique_ptr<penumbra::ScopedTexture>> textures;
   for (int i = 0; i < this->ShareCount; ++i)
@@ -302,7 +299,7 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
     textures.push_back(std::make_unique<penumbra::ScopedTexture>(state, program, samplers[i],
       GL_TEXTURE_2D, shares.HasTextures ? this->GetShare(i)->GetTexture()->GetHandle() : 0));
   }
-  penumbra::DrawFullScreenTriangle();
+  target->Draw(program, region, strip, add);
 }
 
 std::size_t vtkRadianceResolver::GetBytes() const

@@ -58,18 +58,18 @@ vtkRadianceTexture::vtkRadianceTexture()
 
 vtkRadianceTexture::~vtkRadianceTexture() = default;
 
-bool vtkRadianceTexture::Allocate(
-  vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance)
+bool vtkRadianceTexture::Allocate(vtkOpenGLRenderWindow* window,
+  const std::vector<penumbra::AtlasReceiver>& receivers, bool withVariance)
 {
   this->ReleaseGraphicsResources();
   this->Window = window;
   const int largestSide = vtkTextureObject::GetMaximumTextureSize(window);
-  this->Layout = penumbra::AtlasLayout(sizes, largestSide);
+  this->Layout = penumbra::AtlasLayout(receivers, largestSide);
   const glm::ivec2 size = this->Layout.Size;
   if (size.x > largestSide || size.y > largestSide)
   {
-    vtkErrorMacro("The " << sizes.size() << " receivers of a surface need a texture of " << size.x
-                         << " x " << size.y << " texels; OpenGL allows " << largestSide
+    vtkErrorMacro("The " << receivers.size() << " receivers of a surface need a texture of "
+                         << size.x << " x " << size.y << " texels; OpenGL allows " << largestSide
                          << " a side. Use a larger TexelSize.");
     return false;
   }
@@ -82,7 +82,6 @@ bool vtkRadianceTexture::Allocate(
     return false;
   }
   this->HasVariance = withVariance;
-  // The gutter around it is cut off.
   this->Clear({ glm::ivec2(0), size }, penumbra::WholeRectangle(size));
   return true;
 }
@@ -91,13 +90,35 @@ void vtkRadianceTexture::Clear(const Region& region, const penumbra::TexelRectan
 {
   vtkOpenGLState* state = this->Window->GetState();
   const vtkOpenGLState::ScopedglClearColor savedColor(state);
-  this->BindAsTarget(region, rectangle, false);
+  this->BindAsTarget(false);
   state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT);
+  this->ForEachPart(region, rectangle, [&] { state->vtkglClear(GL_COLOR_BUFFER_BIT); });
 }
 
-void vtkRadianceTexture::BindAsTarget(
-  const Region& region, const penumbra::TexelRectangle& rectangle, bool add)
+template <typename Action>
+void vtkRadianceTexture::ForEachPart(
+  const Region& region, const penumbra::TexelRectangle& rectangle, const Action& action)
+{
+  for (const penumbra::TexelRectangle& part : region.Place(rectangle))
+  {
+    const glm::ivec2 size = part.GetSize();
+    this->Window->GetState()->vtkglScissor(part.Low.x, part.Low.y, size.x, size.y);
+    action();
+  }
+}
+
+void vtkRadianceTexture::Draw(vtkShaderProgram* program, const Region& region,
+  const penumbra::TexelRectangle& rectangle, bool add)
+{
+  this->BindAsTarget(add);
+  const glm::ivec2 first = region.GetFirst();
+  program->SetUniform2i("regionFirst", &first.x);
+  program->SetUniformi("regionStep", region.GetStep());
+  program->SetUniform2i("regionSize", &region.Size.x);
+  this->ForEachPart(region, rectangle, [] { penumbra::DrawFullScreenTriangle(); });
+}
+
+void vtkRadianceTexture::BindAsTarget(bool add)
 {
   vtkOpenGLState* state = this->Window->GetState();
   this->Framebuffer->SetContext(this->Window);
@@ -124,14 +145,6 @@ void vtkRadianceTexture::BindAsTarget(
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglViewport(0, 0, this->Layout.Size.x, this->Layout.Size.y);
   state->vtkglEnable(GL_SCISSOR_TEST);
-  penumbra::TexelRectangle padded = rectangle;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    padded.Low[axis] -= rectangle.Low[axis] == 0 ? this->Layout.Gutter : 0;
-    padded.High[axis] += rectangle.High[axis] == region.Size[axis] ? this->Layout.Gutter : 0;
-  }
-  const glm::ivec2 origin = region.Origin + padded.Low, size = padded.GetSize();
-  state->vtkglScissor(origin.x, origin.y, size.x, size.y);
 }
 
 bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst,
@@ -146,16 +159,13 @@ bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
       "Supersampling 1, or update the OpenGL driver.");
     return false;
   }
-  this->BindAsTarget(region, rectangle, false);
   fine->Irradiance->Activate();
   fine->Variance->Activate();
   program->SetUniformi("radiance", fine->Irradiance->GetTextureUnit());
   program->SetUniformi("variance", fine->Variance->GetTextureUnit());
   program->SetUniformi("factor", factor);
   program->SetUniform2i("fineFirst", &fineFirst.x);
-  program->SetUniform2i("regionOrigin", &region.Origin.x);
-  program->SetUniform2i("regionSize", &region.Size.x);
-  penumbra::DrawFullScreenTriangle();
+  this->Draw(program, region, rectangle, false);
   fine->Variance->Deactivate();
   fine->Irradiance->Deactivate();
   return true;
@@ -163,8 +173,9 @@ bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
 
 bool vtkRadianceTexture::GenerateMipmaps()
 {
-  this->HasMipmaps = this->HasMipmaps || this->GenerateMipmaps(this->Irradiance);
-  return this->HasMipmaps;
+  const bool isDone = this->GenerateMipmaps(this->Irradiance);
+  this->HasMipmaps = this->HasMipmaps || isDone;
+  return isDone;
 }
 
 void vtkRadianceTexture::SetMaximumAnisotropy(int ratio)
@@ -251,6 +262,11 @@ vtkRadianceTexture::Texels vtkRadianceTexture::Download(const Region& region)
     read(this->Variance, GL_RED, texels.Variance.data());
   }
   state->Pop();
+  if (region.GetStep() < 0) // turned: the last one comes first
+  {
+    std::reverse(texels.Irradiance.begin(), texels.Irradiance.end());
+    std::reverse(texels.Variance.begin(), texels.Variance.end());
+  }
   return texels;
 }
 
@@ -262,12 +278,6 @@ bool vtkRadianceTexture::IsAllocated() const
 vtkTextureObject* vtkRadianceTexture::GetIrradiance()
 {
   return this->Irradiance;
-}
-
-vtkRadianceTexture::Region vtkRadianceTexture::GetPaddedRegion(std::size_t region) const
-{
-  const Region& inner = this->Layout.Regions[region];
-  return { inner.Origin - this->Layout.Gutter, inner.Size + 2 * this->Layout.Gutter };
 }
 
 std::size_t vtkRadianceTexture::CountTexels(bool withMipmaps) const

@@ -9,6 +9,7 @@
  * components), and the variance of the mean of the three once they are reflected: 20 bytes.
  *
  * The gutter around each region of an atlas of several (penumbra::AtlasLayout) repeats its border.
+ * Triangles may share a slot: what is drawn in a region then leaves the other one's side alone.
  */
 #ifndef vtkRadianceTexture_h
 #define vtkRadianceTexture_h
@@ -25,6 +26,7 @@
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
 class vtkTextureObject;
 
 class PENUMBRARENDERING_EXPORT vtkRadianceTexture : public vtkObject
@@ -44,11 +46,12 @@ public:
   };
 
   /**
-   * Make room for receivers of the given sizes in texels, all black; with or without variance.
+   * Make room for receivers of the given sizes in texels, all black; with or without variance. Of
+   * those that are said to be triangles, texels may be left out that belong to their other half.
    * False, after vtkErrorMacro, if they do not fit into one texture or OpenGL refuses.
    */
-  bool Allocate(
-    vtkOpenGLRenderWindow* window, const std::vector<glm::ivec2>& sizes, bool withVariance = true);
+  bool Allocate(vtkOpenGLRenderWindow* window,
+    const std::vector<penumbra::AtlasReceiver>& receivers, bool withVariance = true);
 
   /**
    * Whether there is a texture: not before Allocate(), and not once its window has freed it.
@@ -56,14 +59,9 @@ public:
   bool IsAllocated() const;
 
   /**
-   * The receivers' places, in the order of their sizes in Allocate().
+   * The receivers' places, in the order that Allocate() has them in.
    */
   const std::vector<Region>& GetRegions() const { return this->Layout.Regions; }
-
-  /**
-   * A region with the gutter around it.
-   */
-  Region GetPaddedRegion(std::size_t region) const;
 
   /**
    * Width and height of the whole texture.
@@ -71,12 +69,13 @@ public:
   const glm::ivec2& GetSize() const { return this->Layout.Size; }
 
   /**
-   * Make a rectangle of a region's texels, with the gutter beyond what of the region's border is in
-   * it, the target of drawing, with two outputs: vtkRadianceResolveFS.glsl and
-   * vtkRadianceDownsampleFS.glsl say what. With `add`, what is drawn adds to what is there. The
-   * caller saves and restores vtkOpenGLState around it.
+   * Run a shader that is ready, and that two outputs are for (vtkRadianceResolveFS.glsl and
+   * vtkRadianceDownsampleFS.glsl say which), on a rectangle of a region's texels, with the gutter
+   * beyond what of the region's border is in it. With `add`, what is drawn adds to what is there.
+   * The caller saves and restores vtkOpenGLState around it.
    */
-  void BindAsTarget(const Region& region, const penumbra::TexelRectangle& rectangle, bool add);
+  void Draw(vtkShaderProgram* program, const Region& region,
+    const penumbra::TexelRectangle& rectangle, bool add);
 
   /**
    * Make a rectangle of a region's texels black again, with the gutter beyond it.
@@ -126,7 +125,8 @@ public:
   std::size_t CountTexels(bool withMipmaps) const;
 
   /**
-   * Read a region back; without variance, if there is none.
+   * Read a region back; without variance, if there is none. Texels that the region does not own
+   * (penumbra::AtlasRegion::Owns) are another receiver's.
    */
   Texels Download(const Region& region);
 
@@ -152,6 +152,12 @@ protected:
 private:
   vtkRadianceTexture(const vtkRadianceTexture&) = delete;
   void operator=(const vtkRadianceTexture&) = delete;
+
+  void BindAsTarget(bool add);
+  /// Calls action() for each part of the rectangle's place that is the region's own, cut to it.
+  template <typename Action>
+  void ForEachPart(
+    const Region& region, const penumbra::TexelRectangle& rectangle, const Action& action);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkSmartPointer<vtkTextureObject> Irradiance;

@@ -78,11 +78,16 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
     program->SetUniformf("scale", this->Scale);
     for (std::size_t i = 0; i < ambient.size(); ++i)
     {
-      const vtkRadianceTexture::Region place = radiance->GetPaddedRegion(i);
-      window->GetState()->vtkglScissor(place.Origin.x, place.Origin.y, place.Size.x, place.Size.y);
+      const vtkRadianceTexture::Region& region = radiance->GetRegions()[i];
       const glm::vec3 incoming(ambient[i]);
       program->SetUniform3f("ambient", &incoming.x);
-      penumbra::DrawFullScreenTriangle();
+      for (const penumbra::TexelRectangle& part :
+        region.Place(penumbra::WholeRectangle(region.Size)))
+      {
+        const glm::ivec2 partSize = part.GetSize();
+        window->GetState()->vtkglScissor(part.Low.x, part.Low.y, partSize.x, partSize.y);
+        penumbra::DrawFullScreenTriangle();
+      }
     }
   }
   if (!radiance->GenerateMipmaps(this->Texture))

@@ -512,6 +512,7 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   {
     receiver.Region = static_cast<int>(i);
     receiver.Base = found.Regions[i].Base;
+    receiver.IsTriangle = found.Regions[i].IsTriangle;
     this->Scene.Receivers.push_back(receiver);
   }
   const double growth = this->Scene.ChooseTexels(first);

@@ -426,7 +426,8 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
       hasTexture = hasTexture || !penumbra::IsUnshadowed(plans[i]);
       need.HasVariance = need.HasVariance || settings.ErrorTolerance > 0.0;
       need.Receivers.push_back({ vertices > 0 ? glm::ivec2(vertices) : receivers[i].Texels,
-        penumbra::FindSharpestPenumbra(plans[i]), vertices > 0 });
+        penumbra::FindSharpestPenumbra(plans[i]), vertices > 0,
+        receivers[i].IsTriangle && vertices == 0 });
     }
     asked.push_back(hasTexture ? need : penumbra::TextureNeed());
   }

@@ -181,7 +181,9 @@ public:
 
   /**
    * The texels of a receiver as they are shown, i (along its first edge) fastest: three components
-   * of irradiance over pi, and what is blocked, in their mean. The window must be current.
+   * of irradiance over pi, and what is blocked, in their mean. Those that are not shown, beyond a
+   * triangle's half, are baked for the answer if another one has their place. The window must be
+   * current.
    * Receivers are in the order of their props and of the polygons within each. nullptr if there is
    * no such receiver, or its texture went with its window.
    */

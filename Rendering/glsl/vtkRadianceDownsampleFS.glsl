@@ -10,14 +10,15 @@
 
 uniform sampler2D radiance; // of the factor's size
 uniform sampler2D variance;
-uniform ivec2 regionOrigin; // where the receiver's texels lie in the target
+uniform ivec2 regionFirst;  // where the receiver's texel (0, 0) lies in the target
+uniform int regionStep;     // -1 if the receiver is turned by 180 degrees there, else 1
 uniform ivec2 regionSize;
 uniform int factor;
 uniform ivec2 fineFirst;    // the receiver's finer texel that is (0, 0) of the sources
 
 void main()
 {
-  ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
+  ivec2 texel = clamp(regionStep * (ivec2(gl_FragCoord.xy) - regionFirst), ivec2(0), regionSize - 1);
   vec4 radianceSum = vec4(0.0);
   float errorSum = 0.0;
   float weightSum = 0.0;

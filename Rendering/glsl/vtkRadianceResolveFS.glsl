@@ -24,7 +24,8 @@ uniform ivec2 sharesFirstTexel; // the receiver's texel that is (0, 0) of the sh
 uniform int hasShares;          // 0: all texels see uniformShare
 uniform float uniformShare;
 uniform int reconstruction;     // are shares filtered across texels?
-uniform ivec2 regionOrigin;     // where the receiver's texels lie in the target
+uniform ivec2 regionFirst;      // where the receiver's texel (0, 0) lies in the target
+uniform int regionStep;         // -1 if the receiver is turned by 180 degrees there, else 1
 uniform ivec2 regionSize;
 uniform vec3 reflectance;       // for the variance alone
 
@@ -190,7 +191,7 @@ vec2 findShare(sampler2D source, ivec2 texel)
 void main()
 {
   // Around the receiver, its edge's texels are repeated: see vtkRadianceTexture.
-  ivec2 texel = clamp(ivec2(gl_FragCoord.xy) - regionOrigin, ivec2(0), regionSize - 1);
+  ivec2 texel = clamp(regionStep * (ivec2(gl_FragCoord.xy) - regionFirst), ivec2(0), regionSize - 1);
   vec3 seen = vec3(uniformShare);
   vec3 halves = vec3(0.0);
   if (hasShares != 0)

@@ -20,7 +20,7 @@ uniform float penumbraScale;       // of the factors
 #endif
 uniform mat4 PENUMBRA_MAPS[PENUMBRA_RECEIVERS];  // (position, 1) to (u q, v q, h q, q), with h = 0 on the plane
 uniform vec4 penumbraPlaces[PENUMBRA_RECEIVERS]; // (u, v) to texture coordinates: origin, size
-uniform vec3 penumbraAmbient[PENUMBRA_RECEIVERS];
+uniform vec4 penumbraAmbient[PENUMBRA_RECEIVERS]; // a: what u + v may be at most: 1 for half of a slot
 uniform vec3 penumbraReflectance[PENUMBRA_RECEIVERS];
 #ifdef PENUMBRA_VARYING
 in vec2 penumbraUVVSOutput;
@@ -38,7 +38,7 @@ vec4 penumbraTransform(mat4 map, vec4 position)
 // The texel at the fragment, and its receiver's settings: what is not used costs nothing.
 vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
 {
-  ambient = penumbraAmbient[0];
+  ambient = penumbraAmbient[0].rgb;
   reflectance = penumbraReflectance[0];
 #if defined(PENUMBRA_VARYING)
   return texture(penumbraTexture, penumbraUVVSOutput).rgb; // one receiver fills its texture, which clamps to its edge
@@ -52,23 +52,28 @@ vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
   // the mip level. Where they do not, the gutters of the atlas keep the receivers apart.
   vec2 uv = vec2(0.0);
   vec4 place = penumbraPlaces[0];
+  float limit = penumbraAmbient[0].a;
   float nearest = 3.0e38;
   for (int i = 0; i < PENUMBRA_RECEIVERS; ++i)
   {
     vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[i], position);
     vec3 uvh = uvhq.xyz / uvhq.w;
     vec2 outside = abs(uvh.xy - 0.5);
-    float distance = max(max(outside.x, outside.y), 0.5) + 4.0 * abs(uvh.z);
+    float beyond = max(max(outside.x, outside.y), uvh.x + uvh.y - penumbraAmbient[i].a + 0.5);
+    float distance = max(beyond, 0.5) + 4.0 * abs(uvh.z);
     if (distance < nearest)
     {
       nearest = distance;
       uv = uvh.xy;
       place = penumbraPlaces[i];
-      ambient = penumbraAmbient[i];
+      limit = penumbraAmbient[i].a;
+      ambient = penumbraAmbient[i].rgb;
       reflectance = penumbraReflectance[i];
     }
   }
-  return texture(penumbraTexture, place.xy + clamp(uv, 0.0, 1.0) * place.zw).rgb;
+  uv = clamp(uv, 0.0, 1.0);
+  uv -= 0.5 * max(uv.x + uv.y - limit, 0.0); // it stays within [0, 1]^2
+  return texture(penumbraTexture, place.xy + uv * place.zw).rgb;
 #endif
 }
 

@@ -8,6 +8,7 @@
 
 #include "vtkActor.h"
 #include "vtkAreaLightSource.h"
+#include "vtkCamera.h"
 #include "vtkCubeSource.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
@@ -133,6 +134,31 @@ TEST(IncrementalBake, OfSupersampledTexels)
 {
   ExpectSameAsWhole({ [](BoxField& s) { s.Receiver->SetSupersampling(2); },
     [](BoxField& s) { s.Boxes[30]->AddPosition(0.4, 0.3, 0.1); } });
+}
+
+// From far away, when pixels show mip levels of the radiance itself.
+TEST(IncrementalBake, OfRadianceSeenFromAfar)
+{
+  BoxField changed, whole;
+  for (BoxField* scene : { &changed, &whole })
+  {
+    scene->Pass->SetShading(vtkSoftShadowPass::RADIANCE);
+    scene->Lamp->SetRadiance(20.0, 20.0, 20.0);
+    scene->Renderer->ResetCamera(-5, 5, -5, 5, 0, 1);
+    scene->Renderer->GetActiveCamera()->Dolly(0.2);
+    scene->Renderer->ResetCameraClippingRange();
+  }
+  const PassScene::Pixels before = changed.Render();
+  for (BoxField* scene : { &changed, &whole })
+  {
+    for (const vtkSmartPointer<vtkActor>& box : scene->Boxes)
+    {
+      box->AddPosition(0.6, 0.5, 0.0);
+    }
+  }
+  const PassScene::Pixels after = changed.Render();
+  EXPECT_EQ(CountDifferences(after, whole.Render()), 0u);
+  EXPECT_GT(CountDifferences(after, before), 0u);
 }
 
 // "Moving one of 50 objects re-bakes only the rectangle it can shade, before and after": its

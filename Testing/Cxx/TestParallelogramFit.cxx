@@ -19,6 +19,7 @@ namespace
 {
 
 using penumbra::FitParallelogram;
+using penumbra::FittedParallelogram;
 using penumbra::Parallelogram;
 using Points2 = std::vector<glm::dvec2>;
 using Points3 = std::vector<glm::dvec3>;
@@ -150,7 +151,7 @@ void ExpectFacing(const Parallelogram& fit, const glm::dvec3& normal)
 // The fit is the quad itself, to the bit: its corner the first one, its edges those beside it.
 void ExpectOwnFit(const Points3& quad, const glm::dvec3& normal)
 {
-  const std::optional<Parallelogram> fit = FitParallelogram(quad, normal);
+  const std::optional<FittedParallelogram> fit = FitParallelogram(quad, normal);
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->Corner, quad[0]);
   const Points3 edges{ quad[1] - quad[0], quad[3] - quad[0] };
@@ -187,7 +188,7 @@ void ExpectSmallestRectangle(RandomGeometry& random, Points2 points)
   random.Shuffle(points);
   const Points3 inSpace = plane.ToSpace(points);
   const glm::dvec3 normal = random.Below(2) == 0 ? plane.Normal : -plane.Normal;
-  const std::optional<Parallelogram> fit = FitParallelogram(inSpace, normal);
+  const std::optional<FittedParallelogram> fit = FitParallelogram(inSpace, normal);
   ASSERT_TRUE(fit);
   const double lengths = glm::length(fit->EdgeX) * glm::length(fit->EdgeY);
   EXPECT_NEAR(glm::dot(fit->EdgeX, fit->EdgeY), 0.0, Rounding * lengths);
@@ -255,11 +256,12 @@ TEST(ParallelogramFit, IgnoresPointsInsideAndOnTheEdges)
     points.insert(points.end(), quad.begin(), quad.end());
     points.push_back(quad[random.Below(4)]); // and a corner twice
     random.Shuffle(points);
-    const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal);
+    const std::optional<FittedParallelogram> fit = FitParallelogram(points, plane.Normal);
     ASSERT_TRUE(fit);
     const auto first = std::find_if(
       points.begin(), points.end(), [&](const glm::dvec3& p) { return IsOneOf(p, quad); });
     EXPECT_EQ(fit->Corner, *first);
+    EXPECT_FALSE(fit->IsTriangle);
     // From the corners themselves: the sums are theirs but for the subtraction's rounding.
     const double tolerance = Rounding * (ExtentOf(points) + glm::length(fit->Corner));
     EXPECT_NEAR(AreaOf(*fit), glm::length(glm::cross(quad[1] - quad[0], quad[3] - quad[0])),
@@ -282,8 +284,9 @@ TEST(ParallelogramFit, PutsATriangleIntoTheLowerLeftHalf)
     const Points3 within = PointsWithin(random, triangle, i % 20);
     points.insert(points.end(), within.begin(), within.end());
     const glm::dvec3 normal = i % 3 == 0 ? -plane.Normal : plane.Normal;
-    const std::optional<Parallelogram> fit = FitParallelogram(points, normal);
+    const std::optional<FittedParallelogram> fit = FitParallelogram(points, normal);
     ASSERT_TRUE(fit);
+    EXPECT_TRUE(fit->IsTriangle);
     EXPECT_EQ(fit->Corner, triangle[0]);
     const Points3 edges{ triangle[1] - triangle[0], triangle[2] - triangle[0] };
     EXPECT_TRUE(IsOneOf(fit->EdgeX, edges));
@@ -325,7 +328,7 @@ TEST(ParallelogramFit, FitsADiscOfManyVertices)
   RandomGeometry random(16);
   const Plane plane(random);
   const Points3 disc = plane.ToSpace(RegularPolygon(64000, 0.0));
-  const std::optional<Parallelogram> fit = FitParallelogram(disc, plane.Normal);
+  const std::optional<FittedParallelogram> fit = FitParallelogram(disc, plane.Normal);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(AreaOf(*fit), 4.0, 4.0 * 2.0 * Flatness);
 }
@@ -362,8 +365,8 @@ TEST(ParallelogramFit, MovesWithThePoints)
       moved.push_back(points.back() + away);
     }
     const glm::dvec3 normal(0.0, 0.0, 1.0);
-    const std::optional<Parallelogram> fit = FitParallelogram(points, normal);
-    const std::optional<Parallelogram> movedFit = FitParallelogram(moved, normal);
+    const std::optional<FittedParallelogram> fit = FitParallelogram(points, normal);
+    const std::optional<FittedParallelogram> movedFit = FitParallelogram(moved, normal);
     ASSERT_TRUE(fit && movedFit);
     EXPECT_EQ(fit->EdgeX, movedFit->EdgeX);
     EXPECT_EQ(fit->EdgeY, movedFit->EdgeY);
@@ -397,7 +400,7 @@ TEST(ParallelogramFit, KnowsFloatParallelogramsOffTheOrigin)
     const Points3 within = PointsWithin(random, exact, 50);
     points.insert(points.end(), within.begin(), within.end());
     points = RoundToFloat(points);
-    const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal);
+    const std::optional<FittedParallelogram> fit = FitParallelogram(points, plane.Normal);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->Corner, points[0]);
     EXPECT_EQ(fit->EdgeX, points[1] - points[0]);
@@ -421,7 +424,7 @@ TEST(ParallelogramFit, EnclosesFloatRectanglesFarFromTheOrigin)
       const Points3 within = PointsWithin(random, points, 200);
       points.insert(points.end(), within.begin(), within.end());
       points = RoundToFloat(points);
-      const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal);
+      const std::optional<FittedParallelogram> fit = FitParallelogram(points, plane.Normal);
       ASSERT_TRUE(fit);
       ExpectEnclosed(*fit, points, 2.0 * rounding + Flatness * ExtentOf(points));
       // No larger than the rectangle (2 by 1) grown by the rounding on all sides.
@@ -450,7 +453,8 @@ TEST(ParallelogramFit, KnowsFloatRectanglesFarFromTheOriginByTheirRounding)
         points.push_back(plane.ToSpace(glm::dvec2(x, 1.0 * (j / (cells + 1)) / cells)));
       }
       points = RoundToFloat(points);
-      const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal, rounding);
+      const std::optional<FittedParallelogram> fit =
+        FitParallelogram(points, plane.Normal, rounding);
       ASSERT_TRUE(fit);
       EXPECT_EQ(fit->Corner, points[0]);
       EXPECT_EQ(fit->EdgeX, points[cells] - points[0]);
@@ -469,7 +473,7 @@ TEST(ParallelogramFit, EnclosesSliversOfTheRoundingsSize)
     const double width = std::pow(10.0, random.Between(-6.0, -1.0));
     const Points3 points = Quad(plane.Origin, 2.0 * plane.X, width * plane.Y);
     const double rounding = std::pow(10.0, random.Between(-4.0, -1.0));
-    const std::optional<Parallelogram> fit = FitParallelogram(points, plane.Normal, rounding);
+    const std::optional<FittedParallelogram> fit = FitParallelogram(points, plane.Normal, rounding);
     ASSERT_TRUE(fit);
     ExpectEnclosed(*fit, points, Rounding * (10.0 + ExtentOf(points)));
   }
