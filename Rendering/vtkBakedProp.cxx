@@ -313,7 +313,7 @@ vtkBakedProp::Outcome vtkBakedProp::Finish(vtkRadianceBaker* baker, double secon
       continue;
     }
     const bool isDone = seconds > 0.0 && entry.Settings.Settings.ErrorTolerance <= 0.0
-      ? this->FinishTiles(baker, entry, i, until)
+      ? this->FinishTiles(baker, entry, i, seconds, until)
       : this->Bake(baker, entry, i, entry.Draft, false);
     if (!isDone)
     {
@@ -326,9 +326,9 @@ vtkBakedProp::Outcome vtkBakedProp::Finish(vtkRadianceBaker* baker, double secon
 }
 
 bool vtkBakedProp::FinishTiles(
-  vtkRadianceBaker* baker, Entry& entry, std::size_t region, double until)
+  vtkRadianceBaker* baker, Entry& entry, std::size_t region, double seconds, double until)
 {
-  constexpr int SmallestTile = 4, LargestTile = 4096;
+  constexpr int SmallestTile = 16, LargestTile = 4096;
   constexpr double ShortestSeconds = 1e-4;
   double now = 0.0;
   do
@@ -354,11 +354,10 @@ bool vtkBakedProp::FinishTiles(
     }
     entry.Draft = tile.Left;
     this->DropTile();
-    // To resolve the next tile is to take a quarter of what is left; where nothing is, a batch
-    // starts with it.
+    // To resolve a tile, which is done at once, is to take about a quarter of a batch.
     now = vtkTimerLog::GetUniversalTime();
     const double taken = std::max(now - start, ShortestSeconds);
-    const double growth = std::sqrt(0.25 * std::max(until - now, taken) / taken);
+    const double growth = std::sqrt(0.25 * seconds / taken);
     this->TileSide = std::clamp(
       static_cast<int>(this->TileSide * std::clamp(growth, 0.25, 4.0)), SmallestTile, LargestTile);
   } while (!entry.Draft.IsEmpty() && now < until);

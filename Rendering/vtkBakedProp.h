@@ -143,7 +143,8 @@ private:
   bool IsSameLayout(const std::vector<Entry>& entries, vtkOpenGLRenderWindow* window) const;
   bool Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,
     const penumbra::TexelRectangle& rectangle, bool draft);
-  bool FinishTiles(vtkRadianceBaker* baker, Entry& entry, std::size_t region, double until);
+  bool FinishTiles(
+    vtkRadianceBaker* baker, Entry& entry, std::size_t region, double seconds, double until);
   void BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::size_t region);
   Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
   Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
