@@ -163,6 +163,7 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   bool showsRadiance, bool draft)
 {
   this->DropTile();
+  window->MakeCurrent(); // which that may have changed
   std::vector<Entry> entries;
   bool hasShadows = false;
   for (const std::size_t i : receivers)
@@ -303,6 +304,10 @@ bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t regio
 vtkBakedProp::Outcome vtkBakedProp::Finish(vtkRadianceBaker* baker, double seconds)
 {
   const double until = vtkTimerLog::GetUniversalTime() + seconds;
+  if (seconds <= 0.0)
+  {
+    this->DropTile();
+  }
   Outcome outcome = Outcome::Unchanged;
   for (std::size_t i = 0; i < this->Entries.size(); ++i)
   {
@@ -337,18 +342,17 @@ bool vtkBakedProp::FinishTiles(
     Tile& tile = this->Begun;
     const vtkRadianceBaker::Progress progress = baker->DrawMasksUntil(
       until, entry.Plan, entry.Receiver, this->Window, tile.Rectangle, tile.Masks);
-    if (progress == vtkRadianceBaker::Progress::OutOfTime)
+    if (progress != vtkRadianceBaker::Progress::Done)
     {
-      return true;
+      return progress != vtkRadianceBaker::Progress::Failed;
     }
     const double start = vtkTimerLog::GetUniversalTime();
     vtkRadianceBaker::Part part;
     part.Rectangle = tile.Rectangle;
     part.Masks = &tile.Masks;
-    if (progress == vtkRadianceBaker::Progress::Failed ||
-      !(entry.Report =
-          baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part))
-         .IsComplete)
+    entry.Report =
+      baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
+    if (!entry.Report.IsComplete)
     {
       return false;
     }
@@ -382,7 +386,12 @@ void vtkBakedProp::BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::s
 
 void vtkBakedProp::DropTile()
 {
-  this->Begun.Masks.Release();
+  if (this->Window && this->Begun.Masks.GetBytes() > 0)
+  {
+    this->Window->PushContext();
+    this->Begun.Masks.Release();
+    this->Window->PopContext();
+  }
   this->Begun = Tile();
 }
 

@@ -123,7 +123,7 @@ public:
   std::size_t GetBytes() const;
 
   /**
-   * Free what Finish() has begun, as far as the window's context is there: it must be current.
+   * Free what Finish() has begun.
    */
   void DropTile();
 

@@ -323,6 +323,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   this->Baker->SetScene(scene);
   std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
   this->FitTextures(plans);
+  const double keptBytes = this->Impl->Budget.GetBytesLeftPerTexel();
   bool isBaked = false;
   const std::size_t maximum = penumbra::GetMaximumReceivers(window);
   for (const auto& [prop, receivers] : this->Impl->Collector->GetReceiverProps())
@@ -335,7 +336,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
     }
     ShownProp shown = TakeShown(before, prop);
     const int shading = this->GetShadingOf(prop);
-    shown.Baked->SetKeptBytesPerTexel(this->Impl->Budget.GetBytesLeftPerTexel());
+    shown.Baked->SetKeptBytesPerTexel(keptBytes);
     const vtkBakedProp::Outcome outcome = shown.Baked->Update(this->Baker, scene, receivers, plans,
       window, shading == RADIANCE, this->BakeMode != COMPLETE);
     if (outcome != vtkBakedProp::Outcome::Unchanged)

@@ -36,4 +36,33 @@ inline bool Require(bool holds, const std::string& what)
   return holds;
 }
 
+/**
+ * A benchmark's main function: reads `[--smallest] [results.json]`, and answers what run(plan,
+ * jsonPath) does, whose plan is the first or, for CI, the smallest.
+ */
+template <typename Plan, typename Run>
+int RunBenchmark(
+  int argc, char** argv, const char* name, Plan plan, const Plan& smallest, const Run& run)
+{
+  std::string jsonPath;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (argument == "--smallest")
+    {
+      plan = smallest;
+    }
+    else if (argument[0] != '-' && jsonPath.empty())
+    {
+      jsonPath = argument;
+    }
+    else
+    {
+      std::fprintf(stderr, "usage: %s [--smallest] [results.json]\n", name);
+      return 2;
+    }
+  }
+  return run(plan, jsonPath);
+}
+
 #endif

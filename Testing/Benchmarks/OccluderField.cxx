@@ -543,24 +543,5 @@ int Run(const Plan& plan, const std::string& jsonPath)
 
 int main(int argc, char** argv)
 {
-  Plan plan;
-  std::string jsonPath;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (argument == "--smallest")
-    {
-      plan = MakeSmallestPlan();
-    }
-    else if (argument[0] != '-' && jsonPath.empty())
-    {
-      jsonPath = argument;
-    }
-    else
-    {
-      std::fprintf(stderr, "usage: OccluderField [--smallest] [results.json]\n");
-      return 2;
-    }
-  }
-  return Run(plan, jsonPath);
+  return RunBenchmark(argc, argv, "OccluderField", Plan(), MakeSmallestPlan(), Run);
 }

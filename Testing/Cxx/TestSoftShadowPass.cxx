@@ -444,6 +444,41 @@ TEST(SoftShadowPass, SurvivesReleaseOfItsResources)
   EXPECT_EQ(scene.Pass->GetBakeCount(), 2);
 }
 
+// The masks of a tile stay from batch to batch.
+TEST(SoftShadowPass, SurvivesReleaseOfWhatABatchHasBegun)
+{
+  FloorScene scene;
+  scene.Receiver->SetLightSamples(4096); // more than a batch without time draws
+  const PassScene::Pixels final = scene.Render();
+  const auto begin = [&]
+  {
+    scene.Receiver->Modified();
+    scene.Pass->SetBakeMode(vtkSoftShadowPass::PROGRESSIVE);
+    scene.Pass->SetBatchSeconds(0.0);
+    scene.Render(); // a draft
+    const vtkTypeInt64 bytes = scene.Pass->GetTextureBytes();
+    while (scene.Pass->GetTextureBytes() == bytes && scene.Pass->GetBakeProgress() < 1.0)
+    {
+      scene.Render(); // tiles without shadows are done at once
+    }
+    EXPECT_LT(scene.Pass->GetBakeProgress(), 1.0);
+    scene.Pass->SetBakeMode(vtkSoftShadowPass::COMPLETE);
+  };
+  begin();
+  scene.Pass->ReleaseGraphicsResources(scene.Window);
+  EXPECT_EQ(scene.Pass->GetTextureBytes(), 0);
+  EXPECT_EQ(CountDifferences(scene.Render(), final), 0u);
+  begin();
+  scene.SphereActor->SetVisibility(false);
+  scene.Render();
+  scene.SphereActor->SetVisibility(true);
+  EXPECT_EQ(CountDifferences(scene.Render(), final), 0u);
+  begin();
+  EXPECT_EQ(CountDifferences(scene.Render(), final), 0u) << "all at once, after all";
+  EXPECT_EQ(scene.Pass->GetBakeProgress(), 1.0);
+  begin(); // and then all goes
+}
+
 TEST(SoftShadowPass, AddsNoMemoryOverFrames)
 {
   FloorScene scene;

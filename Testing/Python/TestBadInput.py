@@ -5,7 +5,7 @@ import numpy
 from paraview import simple
 
 from penumbra_testing import (
-    PLAIN, Checks, Messages, bake, cell_array, find_pass, make_scene, make_view, picture)
+    PLAIN, SHADOWED, Checks, Messages, bake, cell_array, find_pass, make_scene, make_view, picture)
 
 # DESIGN 4 and issue 2: a receiver's textures may not pass this.
 MAXIMUM_TEXTURE_BYTES = 256 * 2**20
@@ -21,10 +21,10 @@ def check_message(name, messages, *words):
         checks.check(any(word in message for message in found), f"{name}: says '{word}' in {found}")
 
 
-def check_case(name, scene, *words):
-    """Draws the scene's view, and bakes the same as data."""
+def check_case(name, scene, *words, shown=None):
+    """Draws the scene's view, a new one if none is given, and bakes the same as data."""
     with Messages() as messages:
-        shown = make_view(scene)
+        shown = shown or make_view(scene)
         drawn = picture(shown.view)
     check_message(f"{name}, view", messages, *words)
     checks.at_least(len(numpy.unique(drawn.reshape(-1, 3), axis=0)), 10, f"{name}: colours in the picture")
@@ -118,14 +118,22 @@ def check_tiny_texels():
 
 
 def check_properties():
+    scene = make_scene()
+    shown = make_view(scene)
+    as_it_was = picture(shown.view)
     for name, value in (
         ("TexelSize", -1.0), ("LightSamples", 0), ("SampleMultiplier", -2.0), ("Reflectance", [2.0, 0.0, 0.0]),
         ("AmbientRadiance", [-1.0, 0.0, 0.0]), ("SolidAnglePerSample", -0.5), ("ErrorTolerance", -0.25),
         ("ErrorTolerance", 2.0), ("MaximumLightSamples", 0), ("MaximumLightSamples", 65537)):
-        scene = make_scene()
+        good = scene.receiver.GetPropertyValue(name)
+        good = good[:] if hasattr(good, "SMProperty") else good
         scene.receiver.SetPropertyWithName(name, value)
         written = f"{value[0]:g}" if isinstance(value, list) else f"{value:g}"
-        check_plain(name, *check_case(f"{name} {value}", scene, "ShadowReceiver", name, written, "allowed"))
+        words = ("ShadowReceiver", name, written, "allowed")
+        check_plain(name, *check_case(f"{name} {value}", scene, *words, shown=shown))
+        scene.receiver.SetPropertyWithName(name, good)
+        shown.receiver.Representation = SHADOWED
+        checks.check((picture(shown.view) == as_it_was).all(), f"{name}: a good value is as before")
     scene = make_scene()
     scene.light.Radiance = [-1, 0, 0]
     check_plain("Radiance", *check_case("Radiance -1", scene, "AreaLight", "Radiance", "-1", "allowed"))
