@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 
 namespace penumbra
@@ -58,15 +57,17 @@ double TextureNeed::GetBytes() const
 
 double FindSharpestPenumbra(const ReceiverPlan& plan)
 {
-  double narrowest = std::numeric_limits<double>::infinity();
+  // Bounds may be far wider, such as those of an occluder that reaches the light's height.
+  const auto side = static_cast<double>(std::max(plan.Texels.x, plan.Texels.y));
+  double narrowest = side;
   for (const PairPlan& pair : plan.Pairs)
   {
     if (pair.Needed == Effect::Hard || pair.Needed == Effect::Soft)
     {
-      narrowest = std::min(narrowest, pair.PenumbraTexels / plan.Supersampling);
+      narrowest = std::min(narrowest, pair.PenumbraTexels);
     }
   }
-  return narrowest;
+  return narrowest / plan.Supersampling;
 }
 
 void FitTextures(std::vector<TextureNeed>& textures, double maximumBytes)

@@ -37,8 +37,8 @@ struct TextureNeed
 };
 
 /**
- * How wide penumbrae may be, in the receiver's texels, of the light of which they are narrowest;
- * infinite where nothing is in shadow.
+ * How wide penumbrae may be, in the receiver's texels, of the light of which they are narrowest; at
+ * most the receiver's longer side, as where nothing is in shadow.
  */
 PENUMBRARENDERING_EXPORT double FindSharpestPenumbra(const ReceiverPlan& plan);
 

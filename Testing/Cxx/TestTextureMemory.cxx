@@ -133,7 +133,11 @@ TEST(TextureMemory, TellsTheSharpestPenumbra)
   scene.Lights.emplace_back(PlanScene::MakeLamp(0.0, 0.0, 2.0, 0.06));
   EXPECT_LT(penumbra::FindSharpestPenumbra(scene.Plan()), 0.2 * wide);
   scene.Surfaces.pop_back();
-  EXPECT_EQ(penumbra::FindSharpestPenumbra(scene.Plan()), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(penumbra::FindSharpestPenumbra(scene.Plan()), PlanScene::Side) << "no shadow";
+  scene.Surfaces.emplace_back(PlanScene::MakePlate({ 0, 0, 0.5 }, { 0.4, 0, 0 }, { 0, 0, 3.0 }));
+  EXPECT_EQ(penumbra::FindSharpestPenumbra(scene.Plan()), PlanScene::Side) << "past the lights";
+  scene.GetSettings().Supersampling = 2;
+  EXPECT_EQ(penumbra::FindSharpestPenumbra(scene.Plan()), PlanScene::Side);
 }
 
 TEST(TextureBudget, StaysAsItIsWhileTheSameTexelsAreAskedFor)
