@@ -195,6 +195,19 @@ vtkRenderPass* vtkSoftShadowPass::GetDelegatePass()
   return this->DelegatePass;
 }
 
+void vtkSoftShadowPass::SetMaximumTextureMemory(double memory)
+{
+  if (!(memory >= 1.0)) // nor NaN
+  {
+    vtkErrorMacro("MaximumTextureMemory is " << memory << "; allowed: 1 MiB or more.");
+  }
+  else if (memory != this->MaximumTextureMemory)
+  {
+    this->MaximumTextureMemory = memory;
+    this->Modified();
+  }
+}
+
 void vtkSoftShadowPass::Designate(vtkProp* prop, int shading)
 {
   GetOrMakeKeys(prop)->Set(DESIGNATED(), shading);

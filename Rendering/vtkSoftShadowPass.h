@@ -132,10 +132,10 @@ public:
   /**
    * The most memory in MiB, 1 or more, that the textures of a view may take, with what is kept to
    * bake less the next time. Where it would be more, receivers get larger texels than they ask for,
-   * those with the widest penumbrae first (penumbra::FitTextures), and a warning says so. Default
-   * is 256.
+   * those with the widest penumbrae first (penumbra::FitTextures), and a warning says so. Any other
+   * number is an error, and changes nothing. Default is 256.
    */
-  vtkSetClampMacro(MaximumTextureMemory, double, 1.0, VTK_DOUBLE_MAX);
+  void SetMaximumTextureMemory(double memory);
   vtkGetMacro(MaximumTextureMemory, double);
   ///@}
 

@@ -29,6 +29,20 @@ bool IsDistributed(vtkPVRenderView* view)
 
 } // namespace
 
+void vtkSoftShadowReceiverRepresentation::SetMaximumTextureMemory(double memory)
+{
+  if (!(memory >= 1.0)) // nor NaN
+  {
+    vtkErrorMacro(
+      "Soft Shadow Receiver: MaximumTextureMemory is " << memory << "; allowed: 1 MiB or more.");
+  }
+  else if (memory != this->MaximumTextureMemory)
+  {
+    this->MaximumTextureMemory = memory;
+    this->Modified();
+  }
+}
+
 int vtkSoftShadowReceiverRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {

@@ -43,9 +43,10 @@ public:
   ///@{
   /**
    * The most memory in MiB, 1 or more, for the textures of the whole view, of which the receiver
-   * that allows the least decides (vtkSoftShadowPass::SetMaximumTextureMemory). Default is 256.
+   * that allows the least decides (vtkSoftShadowPass::SetMaximumTextureMemory). Any other number is
+   * an error, and changes nothing. Default is 256.
    */
-  vtkSetMacro(MaximumTextureMemory, double);
+  void SetMaximumTextureMemory(double memory);
   vtkGetMacro(MaximumTextureMemory, double);
   ///@}
 

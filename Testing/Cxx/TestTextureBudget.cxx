@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace
 {
 
@@ -100,4 +102,16 @@ TEST(TextureBudgetOfAView, LetsGoOfWhatIsKept)
   EXPECT_EQ(messages.GetText(), "");
   EXPECT_LE(scene.Pass->GetTextureBytes(), textures + 1000);
   EXPECT_EQ(scene.CountTexels(1), Side * Side);
+}
+
+TEST(TextureBudgetOfAView, SaysWhatIsAllowed)
+{
+  vtkNew<vtkSoftShadowPass> pass;
+  for (const double memory : { 0.5, -3.0, std::numeric_limits<double>::quiet_NaN() })
+  {
+    const Messages messages;
+    pass->SetMaximumTextureMemory(memory);
+    messages.ExpectOne({ "MaximumTextureMemory", "allowed: 1 MiB" });
+    EXPECT_EQ(pass->GetMaximumTextureMemory(), 256.0);
+  }
 }

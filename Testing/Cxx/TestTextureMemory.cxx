@@ -97,8 +97,8 @@ TEST(TextureMemory, FitsOrIsAtItsLeast)
   }
 }
 
-// Down to a fifth, no receiver is touched whose penumbrae are narrower than those of one that
-// could still give.
+// No receiver gives texels while the penumbrae of another one are wider in texels, and it has some
+// to give.
 TEST(TextureMemory, TakesFromTheWidestPenumbraFirst)
 {
   std::vector<TextureNeed> textures(3);
