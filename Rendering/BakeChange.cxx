@@ -38,6 +38,11 @@ bool IsUniform(Effect effect)
   return effect == Effect::None || effect == Effect::Umbra;
 }
 
+bool IsExact(const PairPlan& pair)
+{
+  return pair.IsExact(pair.Samples);
+}
+
 /// Where what blocks the light has changed.
 TexelRectangle FindStale(const PairPlan& before, const PairPlan& now, const TexelRectangle& whole)
 {
@@ -80,7 +85,9 @@ BakeChange FindBakeChange(const ReceiverPlan& before, const ReceiverPlan& now, i
         light.Stale = FindStale(before.Pairs[j], now.Pairs[i], whole);
         const bool isDimmed = before.Lights[j]->Radiance != now.Lights[i]->Radiance &&
           now.Pairs[i].Needed != Effect::None;
-        change.Resolved = change.Resolved.Union(isDimmed ? whole : light.Stale.Grown(halo));
+        const bool isFoundOtherwise = IsExact(before.Pairs[j]) != IsExact(now.Pairs[i]);
+        change.Resolved =
+          change.Resolved.Union(isDimmed || isFoundOtherwise ? whole : light.Stale.Grown(halo));
       }
     }
     if (light.Before == LightChange::New && now.Pairs[i].Needed != Effect::None)

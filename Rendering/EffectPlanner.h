@@ -74,6 +74,12 @@ struct PairPlan
   std::vector<PlannedCaster> Casters; ///< in the scene's order
   std::size_t Translucent = 0; ///< how many of them are: if any, samples are weighed, not counted
   bool IsTinted = false;       ///< whether one of these weakens components differently
+  /// From so many samples on, what penumbras see is cut out of the light instead
+  /// (PolygonVisibility); 0: never.
+  int ExactFrom = 0;
+  int Samples = 0; ///< that the receiver's settings ask for, without ErrorTolerance
+
+  bool IsExact(int samples) const { return this->ExactFrom > 0 && samples >= this->ExactFrom; }
 };
 
 /// What was decided for a receiver.

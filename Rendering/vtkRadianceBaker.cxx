@@ -151,7 +151,8 @@ vtkRadianceBaker::Report vtkRadianceBaker::MakeReport(
   report.Receiver = receiver;
   for (const penumbra::PairPlan& pair : plan.Pairs)
   {
-    report.Pairs.push_back({ pair.Needed, pair.Reason, 0, 0, pair.Triangles, triangles, 0.0, 0 });
+    report.Pairs.push_back(
+      { pair.Needed, pair.Reason, 0, 0, pair.Triangles, triangles, 0.0, 0, 0 });
   }
   return report;
 }
@@ -232,6 +233,7 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     {
       glFinish();
     }
+    job.Result.Pairs[light].ExactTexels = this->Resolver->GetExactCount();
     job.Result.Pairs[light].Milliseconds = 1000.0 * (vtkTimerLog::GetUniversalTime() - start);
   }
   return !hasTolerance || this->RefineLights(job);
@@ -245,6 +247,19 @@ vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job, std::s
   options.Translucent = job.Plan.Pairs[light].Translucent > 0;
   options.Tinted = job.Plan.Pairs[light].IsTinted;
   return options;
+}
+
+void vtkRadianceBaker::ChooseExact(const Job& job, std::size_t light, int samples)
+{
+  if (!job.Plan.Pairs[light].IsExact(samples))
+  {
+    this->Resolver->SetExact(nullptr);
+    return;
+  }
+  const penumbra::LightShape& seen = *job.Plan.Lights[light];
+  this->Occluders.Select(seen);
+  this->Exact.emplace(job.Plan.Frame, *seen.GetPolygons().front().Polygon, this->Occluders);
+  this->Resolver->SetExact(&*this->Exact);
 }
 
 bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
@@ -284,6 +299,7 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
   {
     return false;
   }
+  this->ChooseExact(job, light, count);
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
   if (job.Wanted.Masks)
   {
@@ -603,6 +619,7 @@ bool vtkRadianceBaker::RefineLight(
       return false;
     }
     job.Result.Pairs[light].LightSamples = total;
+    this->ChooseExact(job, light, count);
     this->Resolver->ResolveCounts(scratch, scratchRegion, shaded, false);
     const glm::dvec2 error = FindErrorAndPeak(scratch->Download(scratchRegion), settings);
     if (error.x <= allowed)
@@ -667,6 +684,7 @@ bool vtkRadianceBaker::BakeFromKept(
     return false;
   }
   kept.Stale = {};
+  this->ChooseExact(job, light, count);
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
   for (const vtkSmartPointer<vtkVisibilityShare>& share : kept.Shares.Shares)
   {

@@ -18,6 +18,7 @@
 #include "EffectPlanner.h"
 #include "OccluderSelector.h"
 #include "PenumbraRenderingModule.h" // for the export macro
+#include "PolygonVisibility.h"
 #include "ShadowScene.h"
 #include "TexelRectangle.h"
 #include "vtkNew.h" // for vtkNew
@@ -25,6 +26,7 @@
 #include "vtkRadianceResolver.h" // for its Options
 #include "vtkSmartPointer.h"     // for masks
 
+#include <optional>
 #include <string> // for reports
 #include <vector> // for reports
 
@@ -59,8 +61,9 @@ public:
     std::size_t Texels = 0;    ///< that masks were drawn for
     std::size_t Triangles = 0; ///< that could block the light, of SceneTriangles
     std::size_t SceneTriangles = 0;
-    double Milliseconds = 0.0; ///< until OpenGL had finished
-    std::size_t Bytes = 0;     ///< of masks and of what is between them and the texture
+    double Milliseconds = 0.0;   ///< until OpenGL had finished
+    std::size_t Bytes = 0;       ///< of masks and of what is between them and the texture
+    std::size_t ExactTexels = 0; ///< whose shares were cut out of the light: PairPlan::IsExact()
   };
 
   /// What was done for one receiver.
@@ -203,6 +206,8 @@ private:
   bool DrawMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
     const penumbra::TexelRectangle& rectangle, bool withHalo, const Use& use);
   vtkRadianceResolver::Options GetOptions(const Job& job, std::size_t light) const;
+  /// Has penumbras' shares found exactly, if so many samples are to be worth it.
+  void ChooseExact(const Job& job, std::size_t light, int samples);
 
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
   const penumbra::ShadowScene* Scene = nullptr;
@@ -210,6 +215,7 @@ private:
   vtkNew<vtkOccluderGeometry> Geometry;
   vtkNew<vtkVisibilityMask> Masks;
   vtkNew<vtkRadianceResolver> Resolver;
+  std::optional<penumbra::PolygonVisibility> Exact; ///< of the light that is resolved
   /// Triangles and texels, of as many samples, that DrawMasksUntil() drew; at first, as many as any
   /// machine draws.
   double WorkPerSecond = 1e6;

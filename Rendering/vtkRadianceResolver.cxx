@@ -7,6 +7,7 @@
 #include "FullScreenTriangle.h"
 #include "ScopedTexture.h"
 #include "vtkClosedForm.h"
+#include "vtkExactShare.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
@@ -97,6 +98,7 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
                   "OpenGL driver.");
     return false;
   }
+  this->SetExact(nullptr);
   const glm::ivec2 strip(resolved.GetSize().x, this->StripRows);
   if (!this->ClosedForm->Begin(window, frame, seen, texels, strip))
   {
@@ -280,6 +282,9 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   const vtkRadianceTexture::Region& region, const penumbra::TexelRectangle& strip,
   const StripShares& shares, bool add)
 {
+  const bool hasExact = shares.HasTextures &&
+    this->Exact->Find(this->Window, this->GetShare(0)->GetTexture(), shares.FirstTexel,
+      this->GetMaskRectangle(strip), strip);
   this->ClosedForm->Draw(strip);
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
@@ -289,6 +294,9 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   program->SetUniformi("reconstruction", this->Chosen.Reconstruction ? 1 : 0);
   program->SetUniformi("hasShares", shares.HasTextures ? 1 : 0);
   program->SetUniformf("uniformShare", shares.Uniform);
+  program->SetUniformi("hasExact", hasExact ? 1 : 0);
+  const penumbra::ScopedTexture exact(state, program, "exactShares", GL_TEXTURE_2D,
+    hasExact ? this->Exact->GetTexture()->GetHandle() : 0);
   program->SetUniform2i("sharesFirstTexel", &shares.FirstTexel.x);
   const glm::vec3 reflectance(this->Chosen.Reflectance);
   program->SetUniform3f("reflectance", &reflectance.x);
@@ -302,9 +310,20 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   target->Draw(program, region, strip, add);
 }
 
+void vtkRadianceResolver::SetExact(const penumbra::PolygonVisibility* exact)
+{
+  this->Exact->Begin(exact, this->Texels);
+}
+
+std::size_t vtkRadianceResolver::GetExactCount() const
+{
+  return this->Exact->GetCount();
+}
+
 std::size_t vtkRadianceResolver::GetBytes() const
 {
-  std::size_t bytes = this->ClosedForm->GetTexture()->GetBytes();
+  std::size_t bytes =
+    this->ClosedForm->GetTexture()->GetBytes() + this->Exact->GetTexture()->GetBytes();
   for (const vtkNew<vtkVisibilityShare>& share : this->Share)
   {
     bytes += share->GetBytes();
@@ -315,6 +334,7 @@ std::size_t vtkRadianceResolver::GetBytes() const
 void vtkRadianceResolver::ReleaseGraphicsResources()
 {
   this->ClosedForm->ReleaseGraphicsResources();
+  this->Exact->ReleaseGraphicsResources();
   for (const vtkNew<vtkVisibilityShare>& share : this->Share)
   {
     share->ReleaseGraphicsResources();

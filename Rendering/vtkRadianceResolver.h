@@ -31,9 +31,15 @@
 #include <vector> // for samples
 
 class vtkClosedForm;
+class vtkExactShare;
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkVisibilityMask;
+
+namespace penumbra
+{
+class PolygonVisibility;
+}
 
 class PENUMBRARENDERING_EXPORT vtkRadianceResolver : public vtkObject
 {
@@ -138,6 +144,18 @@ public:
     const penumbra::TexelRectangle& rectangle);
 
   /**
+   * From now on, find the shares within penumbras by `exact`, which is kept by reference: what was
+   * counted says where penumbras are. The light must have one share alone. nullptr, as after
+   * Begin(): by samples.
+   */
+  void SetExact(const penumbra::PolygonVisibility* exact);
+
+  /**
+   * How many texels have got such a share since then.
+   */
+  std::size_t GetExactCount() const;
+
+  /**
    * The bytes that the textures between the stages take.
    */
   std::size_t GetBytes() const;
@@ -185,6 +203,7 @@ private:
   int ShareCount = 1;
   vtkNew<vtkClosedForm> ClosedForm;
   vtkNew<vtkVisibilityShare> Share[3];
+  vtkNew<vtkExactShare> Exact;
 };
 
 #endif

@@ -13,6 +13,14 @@
 
 vtkStandardNewMacro(vtkStageTexture);
 
+namespace
+{
+
+/// OpenGL's names of so many components, less one.
+constexpr GLenum Formats[] = { GL_RED, GL_RG, GL_RGB, GL_RGBA };
+
+} // namespace
+
 vtkStageTexture::vtkStageTexture()
 {
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
@@ -67,13 +75,25 @@ void vtkStageTexture::BindAsTarget(const penumbra::TexelRectangle& rectangle, bo
 
 void vtkStageTexture::Upload(const glm::ivec2& size, const float* values)
 {
-  constexpr GLenum formats[] = { GL_RED, GL_RG, GL_RGB, GL_RGBA };
   vtkOpenGLState* state = this->Window->GetState();
   this->Texture->Activate();
   state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexSubImage2D(
-    GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, formats[this->Components - 1], GL_FLOAT, values);
+    GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, Formats[this->Components - 1], GL_FLOAT, values);
   this->Texture->Deactivate();
+}
+
+std::vector<float> vtkStageTexture::Download(const penumbra::TexelRectangle& rectangle)
+{
+  const glm::ivec2 size = rectangle.GetSize();
+  std::vector<float> values(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+    static_cast<std::size_t>(this->Components));
+  this->BindAsTarget(rectangle, false);
+  this->Framebuffer->ActivateReadBuffer(0);
+  this->Window->GetState()->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(rectangle.Low.x, rectangle.Low.y, size.x, size.y, Formats[this->Components - 1],
+    GL_FLOAT, values.data());
+  return values;
 }
 
 void vtkStageTexture::FillAndCopy(const glm::vec4& values, vtkStageTexture* source,

@@ -16,6 +16,8 @@
 
 #include "TexelRectangle.h"
 
+#include <vector> // for values
+
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
@@ -44,6 +46,12 @@ public:
    * Write a rectangle of the given size at the texture's origin, `values` with all components.
    */
   void Upload(const glm::ivec2& size, const float* values);
+
+  /**
+   * What a rectangle holds, with all components, row by row. The caller saves and restores
+   * vtkOpenGLState around it.
+   */
+  std::vector<float> Download(const penumbra::TexelRectangle& rectangle);
 
   /**
    * Fill the texture with the values, and copy a rectangle from another one of as many components

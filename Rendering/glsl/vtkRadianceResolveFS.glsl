@@ -20,6 +20,9 @@ uniform sampler2D shares;       // vtkVisibilityShareFS.glsl
 uniform sampler2D greenShares; // those above are of red
 uniform sampler2D blueShares;
 #endif
+// Where hasExact is not 0: shares that are known exactly, and -1 elsewhere; of firstTexel, as closedForm.
+uniform sampler2D exactShares;
+uniform int hasExact;
 uniform ivec2 sharesFirstTexel; // the receiver's texel that is (0, 0) of the shares
 uniform int hasShares;          // 0: all texels see uniformShare
 uniform float uniformShare;
@@ -28,6 +31,8 @@ uniform ivec2 regionFirst;      // where the receiver's texel (0, 0) lies in the
 uniform int regionStep;         // -1 if the receiver is turned by 180 degrees there, else 1
 uniform ivec2 regionSize;
 uniform vec3 reflectance;       // for the variance alone
+
+int windows; // 1: the texel's share is filtered, and windows around it are added up; else 0
 
 // What a texel sees of the light, and half the difference of what the halves of the samples say.
 vec2 seenShare(sampler2D source, ivec2 texel)
@@ -71,7 +76,7 @@ Sums addUp(sampler2D source, Window window, float own)
 {
   Sums sums = Sums(vec2(0.0), mat2(0.0), mat2(0.0), vec2(0.0), 0.0, 0.0, true);
   // Software OpenGL also executes what a condition spares a texel, but for loops that it cannot unroll.
-  ivec2 size = reconstruction * window.size;
+  ivec2 size = windows * window.size;
   for (int j = 0; j < size.y && sums.isPenumbra; ++j)
   {
     for (int i = 0; i < size.x && sums.isPenumbra; ++i)
@@ -185,7 +190,10 @@ vec2 reconstructShare(sampler2D source, ivec2 texel)
 
 vec2 findShare(sampler2D source, ivec2 texel)
 {
-  return reconstruction != 0 ? reconstructShare(source, texel) : seenShare(source, texel);
+  float exact = hasExact != 0 ? texelFetch(exactShares, texel - firstTexel, 0).r : -1.0;
+  windows = exact < 0.0 ? reconstruction : 0;
+  vec2 share = reconstruction != 0 ? reconstructShare(source, texel) : seenShare(source, texel);
+  return exact < 0.0 ? share : vec2(exact, 0.0);
 }
 
 void main()

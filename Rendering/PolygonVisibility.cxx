@@ -1,0 +1,366 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PolygonVisibility.h"
+
+#include "OccluderSelector.h"
+#include "PolygonLight.h"
+#include "ReceiverFrame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace penumbra
+{
+namespace
+{
+
+/// What is this near to a plane, as a part of the numbers that its distance is computed of, is on
+/// it: slivers of rounding are no pieces.
+constexpr double Slack = 1e-13;
+
+/// The sum of the components' sizes: a bound on the length that needs no root.
+double GetBound(const glm::dvec3& v)
+{
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/**
+ * What a triangle hides from a point: what is inside the three planes through its edges and the
+ * point, and beyond its own plane. In the base of its corners, as seen from the point, d has the
+ * coordinates (b x c . d, c x a . d, a x b . d) / (a . b x c).
+ */
+class ShadowVolume
+{
+public:
+  static constexpr int Planes = 4;
+
+  ShadowVolume(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& point)
+    : Corners{ triangle[0] - point, triangle[1] - point, triangle[2] - point }
+  {
+    this->First = glm::cross(this->Corners[1], this->Corners[2]);
+    this->Determinant = glm::dot(this->Corners[0], this->First);
+  }
+
+  /// Positive or negative for the two sides that the point may see of the triangle.
+  double GetDeterminant() const { return this->Determinant; }
+
+  /// The normal of a plane, to the inside, times a size that all points share.
+  glm::dvec3 GetNormal(int plane) const
+  {
+    const auto& [a, b, c] = this->Corners;
+    glm::dvec3 normal = this->First;
+    switch (plane)
+    {
+      case 0:
+        break;
+      case 1:
+        normal = glm::cross(c, a);
+        break;
+      case 2:
+        normal = glm::cross(a, b);
+        break;
+      default:
+        normal = glm::cross(b - a, c - a);
+        break;
+    }
+    return this->Determinant < 0.0 ? -normal : normal;
+  }
+
+  /// How far inside the point that looks is, in that size: 0 but for the triangle's own plane.
+  double GetOwnDepth(int plane) const
+  {
+    return plane + 1 < Planes ? 0.0 : -std::abs(this->Determinant);
+  }
+
+private:
+  std::array<glm::dvec3, 3> Corners;
+  glm::dvec3 First;
+  double Determinant;
+};
+
+/// A convex piece of the light, in its plane.
+struct Piece
+{
+  static constexpr std::size_t Capacity = 12;
+  std::size_t Count = 0; ///< greater than Capacity: the piece is too complex, and not there
+  std::array<glm::dvec2, Capacity> Vertices;
+
+  void Add(const glm::dvec2& vertex)
+  {
+    if (this->Count < Capacity)
+    {
+      this->Vertices[this->Count] = vertex;
+    }
+    ++this->Count;
+  }
+};
+
+/// Where a linear form of the points of a plane is positive.
+struct HalfPlane
+{
+  double Offset;
+  glm::dvec2 Slope;
+  double OnLine; ///< up to this much from 0 is 0
+
+  double At(const glm::dvec2& p) const { return this->Offset + glm::dot(this->Slope, p); }
+};
+using Shadow = std::array<HalfPlane, ShadowVolume::Planes>;
+
+/// Whether the piece has vertices inside and outside.
+std::pair<bool, bool> FindSides(const Piece& piece, const HalfPlane& half)
+{
+  bool inside = false, outside = false;
+  for (std::size_t i = 0; i < piece.Count; ++i)
+  {
+    const double depth = half.At(piece.Vertices[i]);
+    inside = inside || depth > half.OnLine;
+    outside = outside || depth < -half.OnLine;
+  }
+  return { inside, outside };
+}
+
+/// The parts of a piece inside and outside (Sutherland and Hodgman 1974).
+std::pair<Piece, Piece> Split(const Piece& piece, const HalfPlane& half)
+{
+  std::pair<Piece, Piece> parts;
+  auto& [inside, outside] = parts;
+  glm::dvec2 p = piece.Vertices[piece.Count - 1];
+  double depthOfP = half.At(p);
+  for (std::size_t i = 0; i < piece.Count; ++i)
+  {
+    const glm::dvec2 q = piece.Vertices[i];
+    const double depth = half.At(q);
+    if ((depthOfP < 0.0 && depth > 0.0) || (depthOfP > 0.0 && depth < 0.0))
+    {
+      const glm::dvec2 cut = p + depthOfP / (depthOfP - depth) * (q - p);
+      inside.Add(cut);
+      outside.Add(cut);
+    }
+    if (depth >= 0.0)
+    {
+      inside.Add(q);
+    }
+    if (depth <= 0.0)
+    {
+      outside.Add(q);
+    }
+    p = q;
+    depthOfP = depth;
+  }
+  return parts;
+}
+
+/// Adds what a shadow leaves of a piece, as up to four convex pieces. False if one is too complex.
+bool Subtract(const Piece& piece, const Shadow& shadow, std::vector<Piece>& lit)
+{
+  const std::size_t before = lit.size();
+  const bool meets = std::all_of(shadow.begin(), shadow.end(),
+    [&](const HalfPlane& half) { return FindSides(piece, half).first; });
+  if (!meets)
+  {
+    lit.push_back(piece);
+    return true;
+  }
+  Piece rest = piece;
+  for (const HalfPlane& half : shadow)
+  {
+    const auto [hasInside, hasOutside] = FindSides(rest, half);
+    if (!hasInside)
+    {
+      lit.resize(before); // the shadow passes the piece after all
+      lit.push_back(piece);
+      return true;
+    }
+    if (hasOutside)
+    {
+      const auto [inside, outside] = Split(rest, half);
+      if (std::max(inside.Count, outside.Count) > Piece::Capacity)
+      {
+        return false;
+      }
+      lit.push_back(outside);
+      rest = inside;
+    }
+  }
+  return true;
+}
+
+/// A light as seen from a point of the receiver.
+struct View
+{
+  glm::dvec3 Origin, AxisX, AxisY; ///< of the light's plane
+  std::vector<glm::dvec3> Vertices;
+  double Reach = 0.0; ///< of the vertices, in GetBound()'s sense
+
+  /// The shadow on the light's plane; none if it misses the light.
+  std::optional<Shadow> Cast(const ShadowVolume& volume) const
+  {
+    Shadow shadow;
+    for (int plane = 0; plane < ShadowVolume::Planes; ++plane)
+    {
+      const glm::dvec3 normal = volume.GetNormal(plane);
+      const double own = volume.GetOwnDepth(plane);
+      const double onPlane = Slack * GetBound(normal) * this->Reach;
+      const bool isInside = std::any_of(this->Vertices.begin(), this->Vertices.end(),
+        [&](const glm::dvec3& d) { return glm::dot(normal, d) + own > onPlane; });
+      if (!isInside)
+      {
+        return std::nullopt;
+      }
+      shadow[static_cast<std::size_t>(plane)] = { glm::dot(normal, this->Origin) + own,
+        { glm::dot(normal, this->AxisX), glm::dot(normal, this->AxisY) }, onPlane };
+    }
+    return shadow;
+  }
+
+  /// Lambert's formula (Photometria, 1760), up to a factor: the form factor of a piece.
+  double SumOverEdges(const Piece& piece) const
+  {
+    const auto at = [&](std::size_t i) {
+      return this->Origin + piece.Vertices[i].x * this->AxisX + piece.Vertices[i].y * this->AxisY;
+    };
+    double sum = 0.0;
+    glm::dvec3 p = at(piece.Count - 1);
+    for (std::size_t i = 0; i < piece.Count; ++i)
+    {
+      const glm::dvec3 q = at(i);
+      const glm::dvec3 cross = glm::cross(p, q - p);
+      const double length = glm::length(cross);
+      sum += length > 0.0 ? std::atan2(length, glm::dot(p, q)) * cross.z / length : 0.0;
+      p = q;
+    }
+    return std::abs(sum);
+  }
+};
+
+} // namespace
+
+PolygonVisibility::PolygonVisibility(
+  const ReceiverFrame& frame, const PolygonLight& seen, const OccluderSelector& occluders)
+{
+  const Parallelogram& base = frame.GetBase();
+  this->ToMetric = glm::dmat3(frame.DirectionToMetric(base.EdgeX),
+    frame.DirectionToMetric(base.EdgeY), glm::dvec3(0.0, 0.0, 1.0));
+  for (const glm::dvec3& vertex : seen.GetVertices())
+  {
+    this->Vertices.push_back(frame.ToMetric(vertex));
+  }
+  const glm::dvec3 normal = glm::normalize(frame.DirectionToMetric(seen.GetNormal()));
+  this->AxisX = glm::normalize(this->Vertices[1] - this->Vertices[0]);
+  this->AxisY = glm::cross(normal, this->AxisX);
+  for (const glm::dvec3& vertex : this->Vertices)
+  {
+    const glm::dvec3 d = vertex - this->Vertices[0];
+    this->Outline.emplace_back(glm::dot(d, this->AxisX), glm::dot(d, this->AxisY));
+  }
+  const std::vector<glm::dvec3>& points = occluders.GetPoints();
+  for (const auto& [a, b, c] : occluders.GetTriangles())
+  {
+    this->Triangles.push_back({ this->GetPlace(points[a]) + glm::dvec3(0.0, 0.0, points[a].z),
+      this->GetPlace(points[b]) + glm::dvec3(0.0, 0.0, points[b].z),
+      this->GetPlace(points[c]) + glm::dvec3(0.0, 0.0, points[c].z) });
+  }
+}
+
+glm::dvec3 PolygonVisibility::GetPlace(const glm::dvec2& uv) const
+{
+  return this->ToMetric * glm::dvec3(uv - 0.5, 0.0);
+}
+
+PolygonVisibility::Indices PolygonVisibility::FindNear(
+  const glm::dvec2& low, const glm::dvec2& high) const
+{
+  const std::array<glm::dvec3, 4> corners = { this->GetPlace(low),
+    this->GetPlace({ high.x, low.y }), this->GetPlace({ low.x, high.y }), this->GetPlace(high) };
+  // For one point of the light, how far inside a plane it is is an affine function of the point
+  // that looks, as long as that sees the same side of the triangle: what is outside for all
+  // corners is so for all points between them.
+  const auto mayBlock = [&](const Triangle& triangle)
+  {
+    std::array<bool, ShadowVolume::Planes> isInside{};
+    double side = 0.0;
+    for (const glm::dvec3& corner : corners)
+    {
+      const ShadowVolume volume(triangle, corner);
+      if (side * volume.GetDeterminant() < 0.0)
+      {
+        return true;
+      }
+      side = volume.GetDeterminant();
+      for (int plane = 0; plane < ShadowVolume::Planes; ++plane)
+      {
+        bool& inside = isInside[static_cast<std::size_t>(plane)];
+        const glm::dvec3 normal = volume.GetNormal(plane);
+        const double own = volume.GetOwnDepth(plane);
+        inside = inside ||
+          std::any_of(this->Vertices.begin(), this->Vertices.end(),
+            [&](const glm::dvec3& vertex)
+            {
+              const glm::dvec3 d = vertex - corner;
+              return glm::dot(normal, d) + own > -Slack * GetBound(normal) * GetBound(d);
+            });
+      }
+    }
+    return std::all_of(isInside.begin(), isInside.end(), [](bool inside) { return inside; });
+  };
+  Indices near;
+  for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
+  {
+    if (mayBlock(this->Triangles[i]))
+    {
+      near.push_back(i);
+    }
+  }
+  return near;
+}
+
+std::optional<double> PolygonVisibility::FindShare(
+  const glm::dvec2& place, const Indices& near) const
+{
+  const glm::dvec3 x = this->GetPlace(place);
+  View view{ this->Vertices[0] - x, this->AxisX, this->AxisY, {}, 0.0 };
+  Piece whole;
+  for (std::size_t i = 0; i < this->Vertices.size(); ++i)
+  {
+    view.Vertices.push_back(this->Vertices[i] - x);
+    view.Reach = std::max(view.Reach, GetBound(view.Vertices.back()));
+    whole.Add(this->Outline[i]);
+  }
+  const double all = whole.Count <= Piece::Capacity ? view.SumOverEdges(whole) : 0.0;
+  if (!(all > 0.0))
+  {
+    return std::nullopt;
+  }
+  std::vector<Piece> pieces{ whole }, lit;
+  for (const std::uint32_t i : near)
+  {
+    const std::optional<Shadow> shadow = view.Cast(ShadowVolume(this->Triangles[i], x));
+    if (!shadow)
+    {
+      continue;
+    }
+    lit.clear();
+    for (const Piece& piece : pieces)
+    {
+      if (!Subtract(piece, *shadow, lit))
+      {
+        return std::nullopt;
+      }
+    }
+    std::swap(pieces, lit);
+    if (pieces.size() > MaximumPieces)
+    {
+      return std::nullopt;
+    }
+  }
+  double visible = 0.0;
+  for (const Piece& piece : pieces)
+  {
+    visible += view.SumOverEdges(piece);
+  }
+  return std::min(visible / all, 1.0);
+}
+
+} // namespace penumbra

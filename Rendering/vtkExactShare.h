@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkExactShare
+ * @brief the share of a light that texels see, from the occluders themselves
+ *
+ * Where few triangles decide what is seen (penumbra::PairPlan::IsExact()), cutting the light along
+ * their shadows (penumbra::PolygonVisibility) costs no more than counting many samples, and has no
+ * error. Samples still tell where penumbras are.
+ */
+#ifndef vtkExactShare_h
+#define vtkExactShare_h
+
+#include "PenumbraRenderingModule.h" // for the export macro
+#include "PolygonVisibility.h"
+#include "TexelRectangle.h"
+#include "vtkNew.h" // for vtkNew
+#include "vtkObject.h"
+
+#include <vector> // for shares
+
+class vtkOpenGLRenderWindow;
+class vtkStageTexture;
+
+class PENUMBRARENDERING_EXPORT vtkExactShare : public vtkObject
+{
+public:
+  static vtkExactShare* New();
+  vtkTypeMacro(vtkExactShare, vtkObject)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Take up a light on a receiver of the given texels. `visibility` is kept by reference; with
+   * nullptr there are no exact shares.
+   */
+  void Begin(const penumbra::PolygonVisibility* visibility, const glm::ivec2& texels);
+
+  /**
+   * Find the shares of the texels of a rectangle that are in a penumbra, or near one: samples that
+   * all see the light, or do not, may have missed a part of it. `counted` has what samples say
+   * (vtkVisibilityShare); its texel (0, 0) is the receiver's `firstTexel`, and the
+   * receiver's texels in `around` are taken from it. False if there are none. The caller saves and
+   * restores vtkOpenGLState around it.
+   */
+  bool Find(vtkOpenGLRenderWindow* window, vtkStageTexture* counted, const glm::ivec2& firstTexel,
+    const penumbra::TexelRectangle& around, const penumbra::TexelRectangle& rectangle);
+
+  /**
+   * The shares; -1 where Find() found none. Its texel (0, 0) is the rectangle's first one.
+   */
+  vtkStageTexture* GetTexture() { return this->Texture; }
+
+  /**
+   * How many texels have got one since Begin().
+   */
+  std::size_t GetCount() const { return this->Count; }
+
+  /**
+   * Free the OpenGL resources.
+   */
+  void ReleaseGraphicsResources();
+
+protected:
+  vtkExactShare();
+  ~vtkExactShare() override;
+
+private:
+  vtkExactShare(const vtkExactShare&) = delete;
+  void operator=(const vtkExactShare&) = delete;
+
+  /// Finds the shares that are wanted of a tile in `rectangle`, whose shares are in Shares.
+  void FindTile(const penumbra::TexelRectangle& tile, const penumbra::TexelRectangle& rectangle);
+
+  const penumbra::PolygonVisibility* Visibility = nullptr;
+  glm::ivec2 Texels{ 1 };
+  std::vector<bool> Wanted; ///< the texels of the rectangle
+  std::vector<float> Shares;
+  std::size_t Count = 0;
+  vtkNew<vtkStageTexture> Texture;
+};
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Where few triangles decide, many samples are not counted: shares within penumbras are found from
+// the triangles, and what is baked is exact.
+
+#include "DiskLight.h"
+#include "TestScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace
+{
+
+/// More than enough for all of these scenes: eight for each triangle, and no fewer than 512.
+constexpr int ManySamples = 1024;
+
+TestScene MakeBoxScene()
+{
+  TestScene scene;
+  scene.Name = "Box";
+  scene.Settings.Side = penumbra::ReceiverSide::Front;
+  scene.Settings.LightSamples = ManySamples;
+  scene.AddLight({ -0.5, 0.5, 2.0 }, { 0.5, 0.5, 2.0 }, { -0.5, -0.5, 2.0 });
+  scene.AddBox({ -0.5, -0.3, 0.0 }, { 0.2, 0.4, 0.6 });
+  return scene;
+}
+
+std::size_t CountExactTexels(const TestBake& bake)
+{
+  std::size_t count = 0;
+  for (const vtkRadianceBaker::PairReport& pair : bake.Reports.front().Pairs)
+  {
+    count += pair.ExactTexels;
+  }
+  return count;
+}
+
+std::size_t CountExactTexels(const TestScene& scene)
+{
+  return CountExactTexels(BakeReceiver(scene.MakeScene()));
+}
+
+} // namespace
+
+// But for the rounding of single precision, which is what the unoccluded light has, too.
+TEST(ExactShares, AreExact)
+{
+  for (TestScene scene : GetOccludedScenes())
+  {
+    scene.Settings.LightSamples = ManySamples;
+    const TestError error = CompareWithOracle(scene);
+    std::cout << scene.Name << ": RMS " << error.RootMeanSquare << ", maximum " << error.Maximum
+              << " of the peak\n";
+    EXPECT_LE(error.Maximum, 1e-5) << scene.Name;
+    EXPECT_GT(CountExactTexels(scene), 0u) << scene.Name;
+  }
+}
+
+TEST(ExactShares, HaveNoError)
+{
+  const TestBake bake = BakeReceiver(MakeBoxScene().MakeScene());
+  EXPECT_EQ(*std::max_element(bake.Texels.Variance.begin(), bake.Texels.Variance.end()), 0.0f);
+}
+
+TEST(ExactShares, AreOfSupersampledTexels)
+{
+  TestScene scene = MakeBoxScene();
+  scene.Settings.Supersampling = 2;
+  EXPECT_GT(CountExactTexels(scene), 0u);
+}
+
+// Who asks for few samples asks for speed; who switches Reconstruction off wants samples alone.
+TEST(ExactShares, AreOfManySamplesAlone)
+{
+  TestScene scene = MakeBoxScene();
+  EXPECT_GT(CountExactTexels(scene), 0u);
+  scene.Settings.LightSamples = 511;
+  EXPECT_EQ(CountExactTexels(scene), 0u);
+  scene.Settings.LightSamples = ManySamples;
+  scene.Settings.Reconstruction = false;
+  EXPECT_EQ(CountExactTexels(scene), 0u);
+}
+
+TEST(ExactShares, AreOfFewTrianglesAlone)
+{
+  TestScene scene = MakeBoxScene();
+  for (int i = 0; i < 129; ++i)
+  {
+    scene.AddPlate({ -1.0 + 0.01 * i, 0.5, 0.5 }, { 0.005, 0.0, 0.0 }, { 0.0, 0.2, 0.1 });
+  }
+  EXPECT_EQ(CountExactTexels(scene), 0u);
+  scene.Settings.LightSamples = 4096;
+  EXPECT_GT(CountExactTexels(scene), 0u);
+}
+
+TEST(ExactShares, AreOfPolygonsAlone)
+{
+  TestScene scene = MakeBoxScene();
+  scene.Lights = { penumbra::DiskLight({ 0, 0, 2 }, { 0, 0, -1 }, 0.5) };
+  EXPECT_EQ(CountExactTexels(scene), 0u);
+}
+
+TEST(ExactShares, AreNotOfTranslucentOccluders)
+{
+  penumbra::ShadowScene scene = MakeBoxScene().MakeScene();
+  penumbra::Surface box = *scene.Surfaces[1];
+  box.Transmittance = glm::dvec3(0.5);
+  scene.Surfaces[1] = penumbra::SharedSurface(box);
+  EXPECT_EQ(CountExactTexels(BakeReceiver(scene)), 0u);
+}
+
+// With an accuracy that no number of samples reaches, they are taken up to where shares are exact.
+TEST(ExactShares, EndErrorTolerance)
+{
+  TestScene scene = MakeBoxScene();
+  scene.Settings.ErrorTolerance = 1e-7;
+  scene.Settings.MaximumLightSamples = 4096;
+  const TestBake bake = BakeReceiver(scene.MakeScene());
+  EXPECT_EQ(bake.Reports.front().StoppedBy, "ErrorTolerance");
+  EXPECT_EQ(bake.Reports.front().Pairs.front().LightSamples, 512);
+  EXPECT_LE(CompareWithOracle(scene).Maximum, 1e-5);
+}
+
+// A sliver that all samples miss is found next to what they see.
+TEST(ExactShares, AreFoundWhereSamplesSeeAllOfTheLight)
+{
+  TestScene scene = MakeBoxScene();
+  scene.Settings.Reconstruction = false;
+  const TestBake counted = BakeReceiver(scene.MakeScene());
+  const auto isPartial = [](const glm::vec4& texel) { return texel.r > 0.0f && texel.a > 0.0f; };
+  const auto partial = static_cast<std::size_t>(
+    std::count_if(counted.Texels.Irradiance.begin(), counted.Texels.Irradiance.end(), isPartial));
+  scene.Settings.Reconstruction = true;
+  EXPECT_GT(CountExactTexels(scene), partial);
+}
