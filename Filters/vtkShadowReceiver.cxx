@@ -49,6 +49,7 @@ int vtkShadowReceiver::RequestData(
   settings.ErrorTolerance = this->ErrorTolerance;
   settings.MaximumLightSamples = this->MaximumLightSamples;
   settings.Reconstruction = this->Reconstruction;
+  settings.ExactShares = this->ExactShares;
   settings.Planner = this->Planner;
   settings.PlannerTolerance = this->PlannerTolerance;
   settings.HardPenumbra = this->HardPenumbra;
@@ -98,6 +99,7 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n";
   os << indent << "MaximumLightSamples: " << this->MaximumLightSamples << "\n";
   os << indent << "Reconstruction: " << this->Reconstruction << "\n";
+  os << indent << "ExactShares: " << this->ExactShares << "\n";
   os << indent << "Planner: " << this->Planner << "\n";
   os << indent << "PlannerTolerance: " << this->PlannerTolerance << "\n";
   os << indent << "HardPenumbra: " << this->HardPenumbra << "\n";

@@ -175,6 +175,18 @@ public:
 
   ///@{
   /**
+   * Whether, with Reconstruction, what a texel within a penumbra sees of a polygonal light is cut
+   * out of it exactly where that costs about what samples do: from 512 samples on, and from 8 for
+   * each opaque triangle that may block the light, if none that may is translucent (Nishita and
+   * Nakamae 1983). Samples then only tell where penumbras are. Default is on.
+   */
+  vtkSetMacro(ExactShares, bool);
+  vtkGetMacro(ExactShares, bool);
+  vtkBooleanMacro(ExactShares, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether a planner decides what each light needs before it is computed: nothing, the closed form
    * alone, one sample, or all samples where a shadow may fall. Off, every light that can arrive
    * takes all its samples on all texels: to check the planner by. Default is on.
@@ -279,6 +291,7 @@ private:
   double ErrorTolerance = 0.0;
   int MaximumLightSamples = 4096;
   bool Reconstruction = true;
+  bool ExactShares = true;
   bool Planner = true;
   double PlannerTolerance = 1.0 / 1024.0;
   double HardPenumbra = 1.0;

@@ -260,8 +260,9 @@ int FindExactFrom(
   // block, or fewer; counting takes 0.01 us for each sample. Who asks for few samples asks for
   // speed.
   constexpr std::size_t SamplesPerTriangle = 8, FewSamples = 512;
-  const bool isPossible = settings.Reconstruction && seen.GetEmission() == Emission::Area &&
-    seen.GetPolygons().size() == 1 && occluders.GetTranslucent().empty();
+  const bool isPossible = settings.Reconstruction && settings.ExactShares &&
+    seen.GetEmission() == Emission::Area && seen.GetPolygons().size() == 1 &&
+    occluders.GetTranslucent().empty();
   const std::size_t from =
     std::max(SamplesPerTriangle * occluders.GetTriangles().size(), FewSamples);
   constexpr auto Most = static_cast<std::size_t>(ReceiverSettings::MostLightSamples);

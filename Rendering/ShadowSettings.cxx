@@ -50,8 +50,8 @@ bool ReceiverSettings::operator==(const ReceiverSettings& other) const
   {
     return std::tie(s.TexelSize, s.LightSamples, s.SampleMultiplier, s.SamplingPattern,
       s.Supersampling, s.Reflectance, s.AmbientRadiance, s.Side, s.Seed, s.SolidAnglePerSample,
-      s.ErrorTolerance, s.MaximumLightSamples, s.Reconstruction, s.Planner, s.PlannerTolerance,
-      s.HardPenumbra, s.ProxyPlane, s.ProxyMode, s.ProxyOrigin, s.ProxyNormal);
+      s.ErrorTolerance, s.MaximumLightSamples, s.Reconstruction, s.ExactShares, s.Planner,
+      s.PlannerTolerance, s.HardPenumbra, s.ProxyPlane, s.ProxyMode, s.ProxyOrigin, s.ProxyNormal);
   };
   return tie(*this) == tie(other);
 }

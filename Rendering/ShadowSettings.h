@@ -48,6 +48,7 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
   double ErrorTolerance = 0.0;
   int MaximumLightSamples = 4096;
   bool Reconstruction = true;
+  bool ExactShares = true;
   bool Planner = true;
   double PlannerTolerance = 1.0 / 1024.0;
   double HardPenumbra = 1.0;

@@ -16,7 +16,7 @@ namespace
 
 constexpr int TileSide = 16;
 /// How near to a penumbra a texel is looked at that all samples, or none, reach.
-constexpr int Margin = 2;
+constexpr int Margin = 3; // as many as vtkRadianceResolver has counts of
 constexpr float None = -1.0f;
 /// What a share is away from 0 or 1 by rounding.
 constexpr double Rounding = 1e-9;

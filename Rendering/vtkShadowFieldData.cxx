@@ -33,6 +33,7 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("ErrorTolerance", settings.ErrorTolerance);
   visit("MaximumLightSamples", settings.MaximumLightSamples);
   visit("Reconstruction", settings.Reconstruction);
+  visit("ExactShares", settings.ExactShares);
   visit("Planner", settings.Planner);
   visit("PlannerTolerance", settings.PlannerTolerance);
   visit("HardPenumbra", settings.HardPenumbra);

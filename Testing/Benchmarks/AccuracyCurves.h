@@ -15,7 +15,8 @@
 
 /// What Measurement::Technique says.
 constexpr const char* MasksName = "masks";
-constexpr const char* CountsName = "counts";       ///< masks without Reconstruction
+constexpr const char* SamplesName = "samples";     ///< masks without ExactShares
+constexpr const char* CountsName = "counts";       ///< and without Reconstruction
 constexpr const char* ToleranceName = "tolerance"; ///< masks until ErrorTolerance is met
 constexpr const char* LiteralName = "literal";
 constexpr const char* RaysName = "embree";

@@ -41,17 +41,19 @@ struct Maker
 const std::vector<Maker>& GetMakers()
 {
   static const std::vector<Maker> makers{
-    { MasksName, "Random", "masks, random", { SkyBlue, vtkPlotPoints::CROSS } },
-    { MasksName, "Uniform Grid", "masks, uniform grid", { Purple, vtkPlotPoints::PLUS } },
-    { MasksName, "Jittered Grid", "masks, jittered grid", { Green, vtkPlotPoints::DIAMOND } },
-    { MasksName, "Correlated Multi-Jittered", "masks, multi-jittered",
+    { SamplesName, "Random", "masks, random", { SkyBlue, vtkPlotPoints::CROSS } },
+    { SamplesName, "Uniform Grid", "masks, uniform grid", { Purple, vtkPlotPoints::PLUS } },
+    { SamplesName, "Jittered Grid", "masks, jittered grid", { Green, vtkPlotPoints::DIAMOND } },
+    { SamplesName, "Correlated Multi-Jittered", "masks, multi-jittered",
       { Orange, vtkPlotPoints::SQUARE } },
     { LiteralName, "", "H&H loop, Sobol", { Vermilion, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE } },
     { RaysName, "", "Embree rays, Sobol", { Black, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE } },
     { CountsName, "", "masks, Sobol, no reconstruction", { Blue, vtkPlotPoints::CROSS } },
     { ToleranceName, "", "masks, ErrorTolerance",
       { Vermilion, vtkPlotPoints::CIRCLE, vtkPen::SOLID_LINE, 1.0f } },
-    { MasksName, "Sobol", "masks, Sobol",
+    { MasksName, "", "masks, and exact shares",
+      { Vermilion, vtkPlotPoints::DIAMOND, vtkPen::SOLID_LINE, 2.0f } },
+    { SamplesName, "Sobol", "masks, Sobol",
       { Blue, vtkPlotPoints::CIRCLE, vtkPen::SOLID_LINE, 3.0f } },
   };
   return makers;
@@ -167,7 +169,8 @@ bool PlotErrorAgainstSamples(
     for (const Maker& maker : GetMakers())
     {
       const Measurements curve = SelectMaker(measurements, scene.Name, maker);
-      if (curve.empty() || maker.Technique == ToleranceName) // its n is an answer
+      // The n of one is an answer, and what the other has beyond samples follows no power of n.
+      if (curve.empty() || maker.Technique == ToleranceName || maker.Technique == MasksName)
       {
         continue;
       }

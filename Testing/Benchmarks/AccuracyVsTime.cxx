@@ -61,6 +61,7 @@ struct Case
   int Texels = 0; ///< along each edge
   int Supersampling = 1;
   int Samples = 1;
+  bool ExactShares = true;
   bool Reconstruction = true;
   double Tolerance = 0.0; ///< 0: Samples are taken
 };
@@ -91,6 +92,7 @@ penumbra::ShadowScene MakeShadowScene(const StudyScene& scene, const Case& point
   receiver.Settings.SamplingPattern = point.Pattern;
   receiver.Settings.Supersampling = point.Supersampling;
   receiver.Settings.Seed = seed;
+  receiver.Settings.ExactShares = point.ExactShares;
   receiver.Settings.Reconstruction = point.Reconstruction;
   receiver.Settings.ErrorTolerance = point.Tolerance;
   return result;
@@ -314,9 +316,10 @@ std::vector<Trial> MakeSampleTrials(
     const int n = 1 << power;
     for (int pattern = 0; pattern < (power % 2 == 0 ? patterns : 1); ++pattern)
     {
-      trials.push_back({ MasksName, &techniques.Product, { pattern, plan.Texels, 1, n } });
+      trials.push_back({ SamplesName, &techniques.Product, { pattern, plan.Texels, 1, n, false } });
     }
-    trials.push_back({ CountsName, &techniques.Product, { 0, plan.Texels, 1, n, false } });
+    trials.push_back({ MasksName, &techniques.Product, { 0, plan.Texels, 1, n } });
+    trials.push_back({ CountsName, &techniques.Product, { 0, plan.Texels, 1, n, false, false } });
     trials.push_back({ LiteralName, &techniques.Loop, { 0, plan.Texels, 1, n } });
 #ifdef PENUMBRA_EMBREE_VERSION
     trials.push_back({ RaysName, &techniques.Peer, { 0, plan.Texels, 1, n } });
@@ -325,7 +328,7 @@ std::vector<Trial> MakeSampleTrials(
   for (const double tolerance : plan.Tolerances)
   {
     trials.push_back(
-      { ToleranceName, &techniques.Product, { 0, plan.Texels, 1, 1, true, tolerance } });
+      { ToleranceName, &techniques.Product, { 0, plan.Texels, 1, 1, true, true, tolerance } });
   }
   return trials;
 }
@@ -442,7 +445,7 @@ void PrintTables(const Plan& plan, const Study& study)
     FewestSettled, JudgedRootMeanSquare);
   for (const StudyScene& scene : study.Scenes)
   {
-    for (const char* technique : { MasksName, CountsName, LiteralName, RaysName })
+    for (const char* technique : { SamplesName, CountsName, LiteralName, RaysName })
     {
       const Measurements curve = GetCurve(study, scene, technique);
       const std::optional<double> seconds = GetSecondsAt(curve, JudgedRootMeanSquare);
@@ -475,15 +478,14 @@ bool WriteFiles(const std::string& folder, const Study& study)
     PlotErrorAgainstTexels(folder + "/error-against-texel-size.png", edges, study.Texels);
 }
 
-/// Errors at n = 1024, and how fast they fall.
+/// Errors at n = 1024, and how fast those of samples fall.
 bool JudgeErrors(const Study& study, const StudyScene& scene)
 {
-  const Measurements curve = GetCurve(study, scene, MasksName);
-  const double exponent = FitRootMeanSquare(curve).Exponent;
+  const double exponent = FitRootMeanSquare(GetCurve(study, scene, SamplesName)).Exponent;
   bool good = Require(exponent <= SlowestExponent,
     scene.Name + ": RMS must fall with n^-0.75 or faster, it falls with n^" +
       std::to_string(exponent));
-  for (const Measurement& m : curve)
+  for (const Measurement& m : GetCurve(study, scene, MasksName))
   {
     if (m.Samples == JudgedSamples)
     {
@@ -506,10 +508,11 @@ double GetLeastError(const Measurements& curve)
     ->RootMeanSquare;
 }
 
-/// Masks against rays: at the RMS that is asked for, or the least that both reach.
+/// Masks against rays: at the RMS that is asked for, or the least that both reach. Samples alone
+/// reach it; between the numbers of them that were measured, shares are not exact by halves.
 bool JudgeTimes(const Study& study, const StudyScene& scene)
 {
-  const Measurements masks = GetCurve(study, scene, MasksName);
+  const Measurements masks = GetCurve(study, scene, SamplesName);
   const Measurements rays = GetCurve(study, scene, RaysName);
   if (rays.empty())
   {
@@ -531,8 +534,9 @@ bool Judge(const Plan& plan, const Study& study)
   for (const StudyScene& scene : study.Scenes)
   {
     const bool isJudged = &scene < &study.Scenes[JudgedScenes];
-    good &= Require(FitRootMeanSquare(GetCurve(study, scene, MasksName)).Exponent < RandomExponent,
-      scene.Name + ": the default pattern must do better than random points");
+    good &=
+      Require(FitRootMeanSquare(GetCurve(study, scene, SamplesName)).Exponent < RandomExponent,
+        scene.Name + ": the default pattern must do better than random points");
     good &= !plan.IsWhole || !isJudged || JudgeErrors(study, scene);
     good &= !plan.IsWhole || JudgeTimes(study, scene);
   }

@@ -281,10 +281,12 @@ TEST(PolygonVisibility, LeavesWhatIsNotSimple)
     { { -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }, penumbra::ReceiverFrame::Side::Front);
   const PolygonLight lamp = PlanScene::MakeLamp(0, 0, 2, 1.0);
   std::vector<oracle::Triangle> comb;
-  for (int i = 0; i < 2 * static_cast<int>(PolygonVisibility::MaximumPieces); ++i)
+  // The light's width is twice that of what casts shadows on it.
+  const int teeth = 2 * static_cast<int>(PolygonVisibility::MaximumPieces);
+  for (int i = 0; i < teeth; ++i)
   {
-    const long double x = -0.5L + i / 512.0L, next = x + 1 / 1024.0L;
-    comb.push_back({ { x, -1, 1 }, { next, -1, 1 }, { x, 1, 1 } });
+    const long double x = -0.25L + 0.5L * i / teeth, width = 0.25L / teeth;
+    comb.push_back({ { x, -1, 1 }, { x + width, -1, 1 }, { x, 1, 1 } });
   }
   const Scene scene(frame, lamp, comb);
   EXPECT_FALSE(scene.FindShare({ 0.5, 0.5 }));

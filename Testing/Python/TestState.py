@@ -18,7 +18,7 @@ def build():
         receiver, TexelSize=0.07, Supersampling="2", LightSamples=100, SampleMultiplier=1.5,
         SamplingPattern="Correlated Multi-Jittered", Seed=5, Reflectance=[0.9, 0.8, 0.7],
         AmbientRadiance=[0.1, 0.05, 0.15], Side="Front", SolidAnglePerSample=0.001, ErrorTolerance=0.01,
-        MaximumLightSamples=200, Reconstruction=0, ProxyPlane=1, ProxyPlaneMode="Given", ProxyOrigin=[0.0, 0.0, -0.1],
+        MaximumLightSamples=200, Reconstruction=0, ExactShares=0, ProxyPlane=1, ProxyPlaneMode="Given", ProxyOrigin=[0.0, 0.0, -0.1],
         ProxyNormal=[0.1, 0.0, 1.0], CastShadow=0)
     light = simple.AreaLight(registrationName="Lamp")
     change(
