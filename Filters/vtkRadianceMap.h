@@ -23,7 +23,8 @@
  * - Visibility (float): of the light that would arrive unoccluded, ambient radiance aside, the
  * share that does, in the mean of the components; 1 where none would arrive;
  * - ErrorEstimate (float): standard error of the mean of the radiance's components, from the
- * difference of two halves of the samples (0 by one sample, which has none); and the field data
+ * difference of two halves of the samples (0 by one sample, which has none, and where shares are
+ * exact: vtkShadowReceiver::SetExactShares()); and the field data
  * - LightSamples (int, one tuple a light): samples taken; 0 where none were needed;
  * - Effect (string, one a light): "None", "Unoccluded", "Umbra", "Hard" or "Soft";
  * - StoppedBy (string): the property that decided how many samples were taken: "LightSamples",
@@ -32,7 +33,8 @@
  *
  * A second output, a vtkTable, says what was decided and done for each receiver and light, a row
  * each: Receiver and Light (indices), Effect, Reason, LightSamples, Texels (that samples were taken
- * for), Triangles (that could block the light) of SceneTriangles, Milliseconds, Bytes (of masks).
+ * for), Triangles (that could block the light) of SceneTriangles, Milliseconds, Bytes (of masks),
+ * ExactTexels (whose shares were found without samples).
  *
  * The bake needs OpenGL 3.2, on any machine: without a display, a headless window serves. A missing
  * OpenGL is an error, and so is every input that the bake leaves out; the rest is baked.

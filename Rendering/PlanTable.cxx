@@ -43,6 +43,7 @@ void MakePlanTable(vtkTable* table)
   AddColumn<vtkIdTypeArray>(table, "SceneTriangles");
   AddColumn<vtkDoubleArray>(table, "Milliseconds");
   AddColumn<vtkIdTypeArray>(table, "Bytes");
+  AddColumn<vtkIdTypeArray>(table, "ExactTexels");
 }
 
 void AddToPlanTable(int receiver, const vtkRadianceBaker::Report& report, vtkTable* table)
@@ -52,7 +53,8 @@ void AddToPlanTable(int receiver, const vtkRadianceBaker::Report& report, vtkTab
     const vtkRadianceBaker::PairReport& pair = report.Pairs[light];
     const vtkVariant values[] = { receiver, static_cast<int>(light), GetEffectName(pair.Effect),
       pair.Reason.c_str(), pair.LightSamples, ToVariant(pair.Texels), ToVariant(pair.Triangles),
-      ToVariant(pair.SceneTriangles), pair.Milliseconds, ToVariant(pair.Bytes) };
+      ToVariant(pair.SceneTriangles), pair.Milliseconds, ToVariant(pair.Bytes),
+      ToVariant(pair.ExactTexels) };
     const vtkIdType row = table->InsertNextBlankRow();
     vtkIdType column = 0;
     for (const vtkVariant& value : values)

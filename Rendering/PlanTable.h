@@ -19,7 +19,7 @@ namespace penumbra
  * Makes the columns of a table of plans, without rows: Receiver (index), Light (index), Effect,
  * Reason, LightSamples, Texels (that masks were drawn for), Triangles (that could block the light),
  * SceneTriangles (of all surfaces), Milliseconds, Bytes (of masks and what comes between them and
- * the texture).
+ * the texture), ExactTexels (whose shares were cut out of the light).
  */
 PENUMBRARENDERING_EXPORT void MakePlanTable(vtkTable* table);
 

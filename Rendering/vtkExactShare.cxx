@@ -46,16 +46,17 @@ void ForEachTexel(const penumbra::TexelRectangle& rectangle, const Use& use)
 vtkExactShare::vtkExactShare() = default;
 vtkExactShare::~vtkExactShare() = default;
 
-void vtkExactShare::Begin(const penumbra::PolygonVisibility* visibility, const glm::ivec2& texels)
+bool vtkExactShare::Begin(const penumbra::PolygonVisibility* visibility,
+  vtkOpenGLRenderWindow* window, const glm::ivec2& texels, const glm::ivec2& largest)
 {
   this->Visibility = visibility;
   this->Texels = texels;
   this->Count = 0;
+  return !visibility || this->Texture->Allocate(window, largest, 1);
 }
 
-bool vtkExactShare::Find(vtkOpenGLRenderWindow* window, vtkStageTexture* counted,
-  const glm::ivec2& firstTexel, const penumbra::TexelRectangle& around,
-  const penumbra::TexelRectangle& rectangle)
+bool vtkExactShare::Find(vtkStageTexture* counted, const glm::ivec2& firstTexel,
+  const penumbra::TexelRectangle& around, const penumbra::TexelRectangle& rectangle)
 {
   if (!this->Visibility || rectangle.IsEmpty() || around.IsEmpty())
   {
@@ -94,7 +95,7 @@ bool vtkExactShare::Find(vtkOpenGLRenderWindow* window, vtkStageTexture* counted
   const auto found = static_cast<std::size_t>(std::count_if(
     this->Shares.begin(), this->Shares.end(), [](float share) { return share != None; }));
   this->Count += found;
-  if (found == 0 || !this->Texture->Allocate(window, rectangle.GetSize(), 1))
+  if (found == 0)
   {
     return false;
   }

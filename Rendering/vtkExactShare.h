@@ -31,9 +31,11 @@ public:
 
   /**
    * Take up a light on a receiver of the given texels. `visibility` is kept by reference; with
-   * nullptr there are no exact shares.
+   * nullptr there are no exact shares. No rectangle will be larger than `largest`. False, after
+   * vtkErrorMacro, if OpenGL refuses.
    */
-  void Begin(const penumbra::PolygonVisibility* visibility, const glm::ivec2& texels);
+  bool Begin(const penumbra::PolygonVisibility* visibility, vtkOpenGLRenderWindow* window,
+    const glm::ivec2& texels, const glm::ivec2& largest);
 
   /**
    * Find the shares of the texels of a rectangle that are in a penumbra, or near one: samples that
@@ -42,7 +44,7 @@ public:
    * receiver's texels in `around` are taken from it. False if there are none. The caller saves and
    * restores vtkOpenGLState around it.
    */
-  bool Find(vtkOpenGLRenderWindow* window, vtkStageTexture* counted, const glm::ivec2& firstTexel,
+  bool Find(vtkStageTexture* counted, const glm::ivec2& firstTexel,
     const penumbra::TexelRectangle& around, const penumbra::TexelRectangle& rectangle);
 
   /**

@@ -249,17 +249,16 @@ vtkRadianceResolver::Options vtkRadianceBaker::GetOptions(const Job& job, std::s
   return options;
 }
 
-void vtkRadianceBaker::ChooseExact(const Job& job, std::size_t light, int samples)
+bool vtkRadianceBaker::ChooseExact(const Job& job, std::size_t light, int samples)
 {
   if (!job.Plan.Pairs[light].IsExact(samples))
   {
-    this->Resolver->SetExact(nullptr);
-    return;
+    return this->Resolver->SetExact(nullptr);
   }
   const penumbra::LightShape& seen = *job.Plan.Lights[light];
   this->Occluders.Select(seen);
   this->Exact.emplace(job.Plan.Frame, *seen.GetPolygons().front().Polygon, this->Occluders);
-  this->Resolver->SetExact(&*this->Exact);
+  return this->Resolver->SetExact(&*this->Exact);
 }
 
 bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
@@ -299,7 +298,10 @@ bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
   {
     return false;
   }
-  this->ChooseExact(job, light, count);
+  if (!this->ChooseExact(job, light, count))
+  {
+    return false;
+  }
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
   if (job.Wanted.Masks)
   {
@@ -607,7 +609,8 @@ bool vtkRadianceBaker::RefineLight(
   {
     std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
     const int total = static_cast<int>(samples.size());
-    const bool isReady = this->Resolver->SetSamples(samples, previous);
+    const bool isReady =
+      this->Resolver->SetSamples(samples, previous) && this->ChooseExact(job, light, count);
     // Masks of the new samples, in whole layers.
     constexpr int Layer = vtkVisibilityMask::SamplesPerLayer;
     samples.erase(samples.begin(), samples.begin() + previous / Layer * Layer);
@@ -619,7 +622,6 @@ bool vtkRadianceBaker::RefineLight(
       return false;
     }
     job.Result.Pairs[light].LightSamples = total;
-    this->ChooseExact(job, light, count);
     this->Resolver->ResolveCounts(scratch, scratchRegion, shaded, false);
     const glm::dvec2 error = FindErrorAndPeak(scratch->Download(scratchRegion), settings);
     if (error.x <= allowed)
@@ -674,6 +676,7 @@ bool vtkRadianceBaker::BakeFromKept(
   const std::vector<penumbra::LightSample> samples = job.TakeSamples(light, count);
   if (!this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light], job.Plan.Texels,
         shaded, pair.Shaded, options) ||
+    !this->ChooseExact(job, light, count) ||
     (!stale.IsEmpty() &&
       (!this->Resolver->SetSamples(samples) ||
         !this->DrawMasks(job, light, samples, stale, false,
@@ -684,7 +687,6 @@ bool vtkRadianceBaker::BakeFromKept(
     return false;
   }
   kept.Stale = {};
-  this->ChooseExact(job, light, count);
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
   for (const vtkSmartPointer<vtkVisibilityShare>& share : kept.Shares.Shares)
   {
@@ -702,6 +704,7 @@ void vtkRadianceBaker::ReleaseGraphicsResources()
   this->Masks->ReleaseGraphicsResources();
   this->Geometry->ReleaseGraphicsResources();
   this->Occluders.Clear();
+  this->Exact.reset();
 }
 
 void vtkRadianceBaker::PrintSelf(ostream& os, vtkIndent indent)

@@ -206,8 +206,8 @@ private:
   bool DrawMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
     const penumbra::TexelRectangle& rectangle, bool withHalo, const Use& use);
   vtkRadianceResolver::Options GetOptions(const Job& job, std::size_t light) const;
-  /// Has penumbras' shares found exactly, if so many samples are to be worth it.
-  void ChooseExact(const Job& job, std::size_t light, int samples);
+  /// Has penumbras' shares found exactly, or not, as the plan says for so many samples.
+  bool ChooseExact(const Job& job, std::size_t light, int samples);
 
   std::size_t MaximumMaskBytes = DefaultMaskBytes;
   const penumbra::ShadowScene* Scene = nullptr;

@@ -86,7 +86,7 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   this->Chosen = options;
   this->Texels = texels;
   this->Shaded = shaded;
-  this->StripRows = std::clamp(texels.y / Strips, 1, MostStripRows);
+  this->StripSize = { resolved.GetSize().x, std::clamp(texels.y / Strips, 1, MostStripRows) };
   this->ShareCount = CountShares(seen, options.Tinted);
   std::string source = vtkRadianceResolveFS;
   vtkShaderProgram::Substitute(
@@ -99,8 +99,7 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
     return false;
   }
   this->SetExact(nullptr);
-  const glm::ivec2 strip(resolved.GetSize().x, this->StripRows);
-  if (!this->ClosedForm->Begin(window, frame, seen, texels, strip))
+  if (!this->ClosedForm->Begin(window, frame, seen, texels, this->StripSize))
   {
     return false;
   }
@@ -121,7 +120,7 @@ bool vtkRadianceResolver::Begin(vtkOpenGLRenderWindow* window, const penumbra::R
   }
   else if (!options.InBatches)
   {
-    size.y = std::min(size.y, this->StripRows + 2 * this->GetHalo());
+    size.y = std::min(size.y, this->StripSize.y + 2 * this->GetHalo());
   }
   bool isReady = true;
   for (int i = 0; i < this->ShareCount; ++i)
@@ -223,9 +222,9 @@ template <typename Use>
 void vtkRadianceResolver::ForEachStrip(const penumbra::TexelRectangle& rectangle, const Use& use)
 {
   for (int row = rectangle.Low.y; row < rectangle.High.y && !rectangle.IsEmpty();
-       row += this->StripRows)
+       row += this->StripSize.y)
   {
-    use(rectangle.Rows(row, std::min(row + this->StripRows, rectangle.High.y)));
+    use(rectangle.Rows(row, std::min(row + this->StripSize.y, rectangle.High.y)));
   }
 }
 
@@ -283,8 +282,8 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   const StripShares& shares, bool add)
 {
   const bool hasExact = shares.HasTextures &&
-    this->Exact->Find(this->Window, this->GetShare(0)->GetTexture(), shares.FirstTexel,
-      this->GetMaskRectangle(strip), strip);
+    this->Exact->Find(
+      this->GetShare(0)->GetTexture(), shares.FirstTexel, this->GetMaskRectangle(strip), strip);
   this->ClosedForm->Draw(strip);
   vtkOpenGLState* state = this->Window->GetState();
   vtkShaderProgram* program = this->Window->GetShaderCache()->ReadyShaderProgram(this->Program);
@@ -310,9 +309,9 @@ void vtkRadianceResolver::ResolveStrip(vtkRadianceTexture* target,
   target->Draw(program, region, strip, add);
 }
 
-void vtkRadianceResolver::SetExact(const penumbra::PolygonVisibility* exact)
+bool vtkRadianceResolver::SetExact(const penumbra::PolygonVisibility* exact)
 {
-  this->Exact->Begin(exact, this->Texels);
+  return this->Exact->Begin(exact, this->Window, this->Texels, this->StripSize);
 }
 
 std::size_t vtkRadianceResolver::GetExactCount() const
@@ -345,5 +344,5 @@ void vtkRadianceResolver::ReleaseGraphicsResources()
 void vtkRadianceResolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "StripRows: " << this->StripRows << "\n";
+  os << indent << "StripRows: " << this->StripSize.y << "\n";
 }

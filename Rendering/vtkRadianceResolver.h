@@ -146,9 +146,9 @@ public:
   /**
    * From now on, find the shares within penumbras by `exact`, which is kept by reference: what was
    * counted says where penumbras are. The light must have one share alone. nullptr, as after
-   * Begin(): by samples.
+   * Begin(): by samples. False, after vtkErrorMacro, if OpenGL refuses.
    */
-  void SetExact(const penumbra::PolygonVisibility* exact);
+  bool SetExact(const penumbra::PolygonVisibility* exact);
 
   /**
    * How many texels have got such a share since then.
@@ -197,7 +197,7 @@ private:
   glm::ivec2 Texels{ 1 };
   penumbra::TexelRectangle Shaded;
   penumbra::TexelRectangle Stored; ///< of the textures of CountMasks()
-  int StripRows = 1;
+  glm::ivec2 StripSize{ 1 };       ///< of the largest strip
   /// The components whose shares differ, each with its own: 3, if a light's cells differ in hue or
   /// what it passes is tinted.
   int ShareCount = 1;

@@ -192,7 +192,7 @@ public:
   /**
    * What was decided and done for each receiver and light at the last bake that concerned it, a row
    * each: Receiver and Light (indices), Effect, Reason, LightSamples, Texels, Triangles,
-   * SceneTriangles, Milliseconds, Bytes. The table is made anew.
+   * SceneTriangles, Milliseconds, Bytes, ExactTexels. The table is made anew.
    */
   void GetPlan(vtkTable* table);
 

@@ -214,6 +214,24 @@ TEST(BakeChange, IsAllShadowsWhereTheyGetHard)
   ExpectStale(Compare(hard, soft), all);
 }
 
+// Shares that were exact are counted from now on, or the other way round, on all texels; masks are
+// what they were.
+TEST(BakeChange, IsEverywhereButNotDrawnWhereSharesCeaseToBeExact)
+{
+  PlanScene few = MakeScene();
+  few.GetSettings().LightSamples = 512; // enough for 64 triangles
+  PlanScene many = few;
+  many.Surfaces.emplace_back(PlanScene::MakeSquare(0.4, -0.4, 0.5, 0.2, 8));
+  const ReceiverPlan before = few.Plan(), now = many.Plan();
+  ASSERT_TRUE(before.Pairs.front().IsExact(512));
+  ASSERT_FALSE(now.Pairs.front().IsExact(512));
+  for (const BakeChange& change : { Compare(few, many), Compare(many, few) })
+  {
+    EXPECT_EQ(change.Resolved, Whole);
+    EXPECT_EQ(change.Lights.front().Stale, GetShadow(now, 2));
+  }
+}
+
 // Where an occluder is as high as the light, bits may depend on the rectangle that is drawn.
 TEST(BakeChange, IsEverywhereWhereShadowsHaveNoBounds)
 {

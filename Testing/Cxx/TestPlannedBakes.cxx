@@ -394,14 +394,14 @@ namespace
 class ChangingScene
 {
 public:
-  explicit ChangingScene(unsigned seed)
+  explicit ChangingScene(unsigned seed, int samples = 16)
     : Random(seed)
     , Scene(MakeScene(seed))
   {
     penumbra::ReceiverSettings& settings = GetSettings(this->Scene);
     settings.Supersampling = seed % 4 == 3 ? 2 : 1;
     settings.Reconstruction = seed % 3 != 2;
-    settings.LightSamples = 16;
+    settings.LightSamples = samples;
   }
   ~ChangingScene() { this->Prop->ReleaseGraphicsResources(); }
   ChangingScene(const ChangingScene&) = delete;
@@ -513,6 +513,29 @@ TEST(ChangedBake, IsAWholeBakeToTheBit)
       EXPECT_TRUE(scene.IsEqualToAWholeBake()) << "scene " << seed << ", step " << step;
     }
   }
+}
+
+// With exact shares, where no more than 64 triangles may block a light.
+TEST(ChangedBake, OfExactSharesIsAWholeBakeToTheBit)
+{
+  std::size_t exact = 0;
+  for (unsigned seed = 0; seed < 6; ++seed)
+  {
+    ChangingScene scene(seed, 512);
+    scene.Update(false);
+    for (int step = 0; step < 8; ++step)
+    {
+      scene.Change();
+      scene.Update(step == 3);
+      scene.FinishAll();
+      EXPECT_TRUE(scene.IsEqualToAWholeBake()) << "scene " << seed << ", step " << step;
+      for (const auto& pair : BakeReceiver(scene.Scene).Reports.front().Pairs)
+      {
+        exact += pair.ExactTexels;
+      }
+    }
+  }
+  EXPECT_GT(exact, 10000u);
 }
 
 // Drafts, batches of the fewest texels, and changes that interrupt them.
