@@ -256,7 +256,7 @@ void AddCaster(const SharedSurface& surface, const TexelRectangle& shadow, PairP
 int FindExactFrom(
   const LightShape& seen, const ReceiverSettings& settings, const OccluderSelector& occluders)
 {
-  // Cutting takes some 0.25 us for each triangle near a texel, which are a half of those that may
+  // Cutting takes some 0.2 us for each triangle near a texel, which are a half of those that may
   // block, or fewer; counting takes 0.01 us for each sample. Who asks for few samples asks for
   // speed.
   constexpr std::size_t SamplesPerTriangle = 8, FewSamples = 512;

@@ -20,6 +20,10 @@ namespace
 /// it: slivers of rounding are no pieces.
 constexpr double Slack = 1e-13;
 
+/// A form factor that is a smaller part of what it is summed up from has lost half of its digits:
+/// the light is too far away for its size, or seen from its edge.
+constexpr double SmallestSum = 1e-8;
+
 /// The sum of the components' sizes: a bound on the length that needs no root.
 double GetBound(const glm::dvec3& v)
 {
@@ -152,40 +156,74 @@ std::pair<Piece, Piece> Split(const Piece& piece, const HalfPlane& half)
   return parts;
 }
 
-/// Adds what a shadow leaves of a piece, as up to four convex pieces. False if one is too complex.
-bool Subtract(const Piece& piece, const Shadow& shadow, std::vector<Piece>& lit)
+/// What is left of the light.
+class Pieces
 {
-  const std::size_t before = lit.size();
-  const bool meets = std::all_of(shadow.begin(), shadow.end(),
-    [&](const HalfPlane& half) { return FindSides(piece, half).first; });
-  if (!meets)
+public:
+  explicit Pieces(const Piece& whole)
+    : All{ whole }
   {
-    lit.push_back(piece);
-    return true;
   }
-  Piece rest = piece;
-  for (const HalfPlane& half : shadow)
+
+  const std::vector<Piece>& Get() const { return this->All; }
+
+  /// False if what the shadow leaves is too complex.
+  bool Subtract(const Shadow& shadow)
   {
-    const auto [hasInside, hasOutside] = FindSides(rest, half);
-    if (!hasInside)
+    for (std::size_t i = this->All.size(); i > 0; --i)
     {
-      lit.resize(before); // the shadow passes the piece after all
-      lit.push_back(piece);
-      return true;
-    }
-    if (hasOutside)
-    {
-      const auto [inside, outside] = Split(rest, half);
-      if (std::max(inside.Count, outside.Count) > Piece::Capacity)
+      if (!this->SubtractFrom(i - 1, shadow))
       {
         return false;
       }
-      lit.push_back(outside);
-      rest = inside;
     }
+    return this->All.size() <= PolygonVisibility::MaximumPieces;
   }
-  return true;
-}
+
+private:
+  /// Replaces a piece by what the shadow leaves of it, up to four pieces; those after it stay, but
+  /// for their order.
+  bool SubtractFrom(std::size_t index, const Shadow& shadow)
+  {
+    std::array<bool, ShadowVolume::Planes> cuts{};
+    for (std::size_t plane = 0; plane < shadow.size(); ++plane)
+    {
+      const auto [hasInside, hasOutside] = FindSides(this->All[index], shadow[plane]);
+      if (!hasInside)
+      {
+        return true;
+      }
+      cuts[plane] = hasOutside;
+    }
+    const std::size_t before = this->All.size();
+    Piece rest = this->All[index];
+    for (std::size_t plane = 0; plane < shadow.size(); ++plane)
+    {
+      const auto [hasInside, hasOutside] =
+        cuts[plane] ? FindSides(rest, shadow[plane]) : std::pair(true, false);
+      if (!hasInside)
+      {
+        this->All.resize(before); // the shadow passes the piece after all
+        return true;
+      }
+      if (hasOutside)
+      {
+        const auto [inside, outside] = Split(rest, shadow[plane]);
+        if (std::max(inside.Count, outside.Count) > Piece::Capacity)
+        {
+          return false;
+        }
+        this->All.push_back(outside);
+        rest = inside;
+      }
+    }
+    this->All[index] = this->All.back();
+    this->All.pop_back();
+    return true;
+  }
+
+  std::vector<Piece> All;
+};
 
 /// A light as seen from a point of the receiver.
 struct View
@@ -215,23 +253,29 @@ struct View
     return shadow;
   }
 
-  /// Lambert's formula (Photometria, 1760), up to a factor: the form factor of a piece.
-  double SumOverEdges(const Piece& piece) const
+  /// Lambert's formula (Photometria, 1760), up to a factor: the form factor of a piece, and what it
+  /// is rounded as a part of, the angles of the piece's edges.
+  std::pair<double, double> SumOverEdges(const Piece& piece) const
   {
     const auto at = [&](std::size_t i) {
       return this->Origin + piece.Vertices[i].x * this->AxisX + piece.Vertices[i].y * this->AxisY;
     };
-    double sum = 0.0;
+    double sum = 0.0, angles = 0.0;
     glm::dvec3 p = at(piece.Count - 1);
     for (std::size_t i = 0; i < piece.Count; ++i)
     {
       const glm::dvec3 q = at(i);
       const glm::dvec3 cross = glm::cross(p, q - p);
       const double length = glm::length(cross);
-      sum += length > 0.0 ? std::atan2(length, glm::dot(p, q)) * cross.z / length : 0.0;
+      if (length > 0.0)
+      {
+        const double angle = std::atan2(length, glm::dot(p, q));
+        sum += angle * cross.z / length;
+        angles += angle;
+      }
       p = q;
     }
-    return std::abs(sum);
+    return { std::abs(sum), angles };
   }
 };
 
@@ -328,37 +372,25 @@ std::optional<double> PolygonVisibility::FindShare(
     view.Reach = std::max(view.Reach, GetBound(view.Vertices.back()));
     whole.Add(this->Outline[i]);
   }
-  const double all = whole.Count <= Piece::Capacity ? view.SumOverEdges(whole) : 0.0;
-  if (!(all > 0.0))
+  const auto [all, angles] =
+    whole.Count <= Piece::Capacity ? view.SumOverEdges(whole) : std::pair(0.0, 0.0);
+  if (!(all > SmallestSum * angles))
   {
     return std::nullopt;
   }
-  std::vector<Piece> pieces{ whole }, lit;
+  Pieces pieces(whole);
   for (const std::uint32_t i : near)
   {
     const std::optional<Shadow> shadow = view.Cast(ShadowVolume(this->Triangles[i], x));
-    if (!shadow)
-    {
-      continue;
-    }
-    lit.clear();
-    for (const Piece& piece : pieces)
-    {
-      if (!Subtract(piece, *shadow, lit))
-      {
-        return std::nullopt;
-      }
-    }
-    std::swap(pieces, lit);
-    if (pieces.size() > MaximumPieces)
+    if (shadow && !pieces.Subtract(*shadow))
     {
       return std::nullopt;
     }
   }
   double visible = 0.0;
-  for (const Piece& piece : pieces)
+  for (const Piece& piece : pieces.Get())
   {
-    visible += view.SumOverEdges(piece);
+    visible += view.SumOverEdges(piece).first;
   }
   return std::min(visible / all, 1.0);
 }

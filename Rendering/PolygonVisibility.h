@@ -50,8 +50,9 @@ public:
   Indices FindNear(const glm::dvec2& low, const glm::dvec2& high) const;
 
   /**
-   * The share, in [0, 1], of what the light would send to a point of the receiver. None if that is
-   * nothing, or if what is seen falls into more than MaximumPieces.
+   * The share, in [0, 1], of what the light would send to a point of the receiver. None if rounding
+   * decides that: the light is 1e8 times as far away as large, or seen from its edge. None, too, if
+   * what is seen falls into more than MaximumPieces.
    * @param near FindNear() of a part that holds the point
    */
   std::optional<double> FindShare(const glm::dvec2& place, const Indices& near) const;

@@ -9,7 +9,7 @@
  * pass and the RadianceMap filter both bake by this class, so that the same scene gives the same
  * texels, bit for bit; whether a receiver is baked at once or in parts changes no bit either.
  *
- * Nothing is read back, but for ErrorTolerance. Masks cover what shadows can reach, and are drawn
+ * Nothing is read back, but for ErrorTolerance and exact shares. Masks cover what shadows can reach, and are drawn
  * in bands of rows of at most MaximumMaskBytes.
  */
 #ifndef vtkRadianceBaker_h

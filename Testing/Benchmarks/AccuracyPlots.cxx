@@ -107,7 +107,7 @@ std::array<double, 2> GetRange(const std::vector<double>& values, double below, 
   return { *least * std::pow(10.0, -below), *greatest * std::pow(10.0, above) };
 }
 
-// Decades: an axis's ends, and the legend's place above errors.
+// Decades beyond what is drawn: an axis's ends, and the legend's place above errors that grow.
 constexpr double AxisEnd = 0.15;
 constexpr double LegendPlace = 0.6;
 
@@ -117,7 +117,7 @@ Chart MakeChart(const std::string& title, const std::string& xTitle, const Measu
 {
   return { title, xTitle, "RMS error, share of the peak",
     GetRange(GetColumn(shown, getX), AxisEnd, AxisEnd),
-    GetRange(GetColumn(shown, GetRootMeanSquare), AxisEnd, LegendPlace), {}, {} };
+    GetRange(GetColumn(shown, GetRootMeanSquare), AxisEnd, AxisEnd), {}, {} };
 }
 
 std::string Format(const char* format, double value)
@@ -159,8 +159,11 @@ bool PlotErrorAgainstSamples(
   ChartPage page(2);
   for (const SceneTitle& scene : scenes)
   {
-    const Measurements all =
-      Select(measurements, [&](const Measurement& m) { return m.Scene == scene.Name; });
+    // The n of ErrorTolerance is an answer, and exact shares follow no power of n.
+    const Measurements all = Select(measurements,
+      [&](const Measurement& m) {
+        return m.Scene == scene.Name && m.Technique != ToleranceName && m.Technique != MasksName;
+      });
     Chart chart = MakeChart(scene.Title, "n, samples of the light", all, GetSamples);
     for (int n = 1; n <= all.back().Samples; n *= 4)
     {
@@ -168,9 +171,8 @@ bool PlotErrorAgainstSamples(
     }
     for (const Maker& maker : GetMakers())
     {
-      const Measurements curve = SelectMaker(measurements, scene.Name, maker);
-      // The n of one is an answer, and what the other has beyond samples follows no power of n.
-      if (curve.empty() || maker.Technique == ToleranceName || maker.Technique == MasksName)
+      const Measurements curve = SelectMaker(all, scene.Name, maker);
+      if (curve.empty())
       {
         continue;
       }
@@ -206,20 +208,24 @@ bool PlotErrorAgainstTexels(
   ChartPage page(static_cast<int>(scenes.size()));
   for (const std::string truth : { AreaTruth, CentreTruth })
   {
+    const Measurements shown =
+      Select(measurements, [&](const Measurement& m) { return m.Truth == truth; });
     for (const SceneTitle& scene : scenes)
     {
       Chart chart = MakeChart(scene.Title +
           (truth == AreaTruth ? ", against texels' averages" : ", against texels' centres"),
-        "texel size, floor's edge = 1", measurements, GetTexelSize);
+        "texel size, floor's edge = 1", shown, GetTexelSize);
+      chart.Legend = LegendCorner::TopLeft;
+      chart.YRange[1] *= std::pow(10.0, LegendPlace);
       for (const int texels : sizes)
       {
         chart.XTicks.emplace_back(1.0 / texels, "1/" + std::to_string(texels));
       }
       for (const auto& [supersampling, style] : supersamplings)
       {
-        const Measurements curve = Select(measurements,
+        const Measurements curve = Select(shown,
           [&, s = supersampling](const Measurement& m)
-          { return m.Scene == scene.Name && m.Truth == truth && m.Supersampling == s; });
+          { return m.Scene == scene.Name && m.Supersampling == s; });
         chart.Curves.push_back({ "Supersampling " + std::to_string(supersampling), style,
           GetColumn(curve, GetTexelSize), GetColumn(curve, GetRootMeanSquare) });
       }

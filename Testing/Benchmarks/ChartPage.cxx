@@ -127,8 +127,9 @@ void AddChart(vtkContextScene* scene, const Chart& chart, const vtkRectf& place)
   item->SetShowLegend(true);
   item->GetLegend()->SetLabelSize(TextSize);
   item->GetLegend()->SetSymbolWidth(40);
-  item->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-  item->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  item->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  item->GetLegend()->SetVerticalAlignment(
+    chart.Legend == LegendCorner::TopLeft ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
 }
 
 } // namespace

@@ -30,7 +30,14 @@ struct Curve
   std::vector<double> X, Y; ///< positive; a curve with none is not drawn
 };
 
-/// A chart; the first curve is drawn first. The legend is at the top right.
+/// Where the curves of a chart leave room for its legend.
+enum class LegendCorner
+{
+  BottomLeft,
+  TopLeft
+};
+
+/// A chart; the first curve is drawn first.
 struct Chart
 {
   std::string Title, XTitle, YTitle;
@@ -38,6 +45,7 @@ struct Chart
   /// Where the x axis is labelled, and with what; if empty, at every decade.
   std::vector<std::pair<double, std::string>> XTicks;
   std::vector<Curve> Curves;
+  LegendCorner Legend = LegendCorner::BottomLeft;
 };
 
 /// A grid of charts, row by row from the top.

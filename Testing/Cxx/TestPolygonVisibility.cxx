@@ -291,3 +291,23 @@ TEST(PolygonVisibility, LeavesWhatIsNotSimple)
   const Scene scene(frame, lamp, comb);
   EXPECT_FALSE(scene.FindShare({ 0.5, 0.5 }));
 }
+
+// Where it is only rounding, nothing is said; up to there, the answer is good.
+TEST(PolygonVisibility, LeavesWhatRoundingDecides)
+{
+  const penumbra::ReceiverFrame frame(
+    { { -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }, penumbra::ReceiverFrame::Side::Front);
+  const std::vector<oracle::Triangle> half = { { { 0, -9, 1 }, { 9, 0, 1 }, { 0, 9, 1 } } };
+  for (const double height : { 1e1, 1e3, 1e5, 1e7 })
+  {
+    const Scene scene(frame, PlanScene::MakeLamp(0, 0, height, 1), half);
+    const std::optional<double> share = scene.FindShare({ 0.5, 0.5 });
+    ASSERT_TRUE(share) << height;
+    EXPECT_NEAR(*share, 0.5, 1e-7) << height;
+  }
+  EXPECT_FALSE(Scene(frame, PlanScene::MakeLamp(0, 0, 1e10, 1), half).FindShare({ 0.5, 0.5 }));
+  const PolygonLight beside = PolygonLight::Parallelogram({ 2, -1, 1 }, { 2, 1, 1 }, { 3, -1, 2 });
+  const Scene edgeOn(frame, beside, half);
+  EXPECT_TRUE(edgeOn.FindShare({ 0.9, 0.5 }));
+  EXPECT_FALSE(edgeOn.FindShare({ 1.0, 0.5 })) << "the point is in the light's plane";
+}
