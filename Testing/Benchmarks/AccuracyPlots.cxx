@@ -107,9 +107,11 @@ std::array<double, 2> GetRange(const std::vector<double>& values, double below, 
   return { *least * std::pow(10.0, -below), *greatest * std::pow(10.0, above) };
 }
 
-// Decades beyond what is drawn: an axis's ends, and the legend's place above errors that grow.
+// Decades beyond what is drawn: an axis's ends, and the legend's place, above errors that grow and
+// to the left of times.
 constexpr double AxisEnd = 0.15;
 constexpr double LegendPlace = 0.6;
+constexpr double WideLegendPlace = 1.1;
 
 /// A chart of the errors in `shown` with nothing in it yet.
 Chart MakeChart(const std::string& title, const std::string& xTitle, const Measurements& shown,
@@ -138,6 +140,7 @@ bool PlotErrorAgainstTime(
     const Measurements all =
       Select(measurements, [&](const Measurement& m) { return m.Scene == scene.Name; });
     Chart chart = MakeChart(scene.Title, "seconds from geometry to texels", all, GetSeconds);
+    chart.XRange[0] *= std::pow(10.0, -WideLegendPlace);
     const Measurements front = GetParetoFront(all);
     chart.Curves.push_back(
       { "Pareto front", { Yellow, vtkPlotPoints::NONE, vtkPen::SOLID_LINE, 10.0f },
