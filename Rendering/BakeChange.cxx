@@ -38,9 +38,13 @@ bool IsUniform(Effect effect)
   return effect == Effect::None || effect == Effect::Umbra;
 }
 
-bool IsExact(const PairPlan& pair)
+/// Where shares of the same masks are found in another way now: exactly, or no longer so.
+TexelRectangle FindOtherwise(const PairPlan& before, const PairPlan& now)
 {
-  return pair.IsExact(pair.Samples);
+  const bool areSoft = before.Needed == Effect::Soft && now.Needed == Effect::Soft;
+  return areSoft && before.IsExact(before.Samples) != now.IsExact(now.Samples)
+    ? before.Shaded.Union(now.Shaded)
+    : TexelRectangle{};
 }
 
 /// Where what blocks the light has changed.
@@ -85,9 +89,9 @@ BakeChange FindBakeChange(const ReceiverPlan& before, const ReceiverPlan& now, i
         light.Stale = FindStale(before.Pairs[j], now.Pairs[i], whole);
         const bool isDimmed = before.Lights[j]->Radiance != now.Lights[i]->Radiance &&
           now.Pairs[i].Needed != Effect::None;
-        const bool isFoundOtherwise = IsExact(before.Pairs[j]) != IsExact(now.Pairs[i]);
-        change.Resolved =
-          change.Resolved.Union(isDimmed || isFoundOtherwise ? whole : light.Stale.Grown(halo));
+        const TexelRectangle stale =
+          light.Stale.Union(FindOtherwise(before.Pairs[j], now.Pairs[i]));
+        change.Resolved = change.Resolved.Union(isDimmed ? whole : stale.Grown(halo));
       }
     }
     if (light.Before == LightChange::New && now.Pairs[i].Needed != Effect::None)

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace penumbra
@@ -47,8 +46,13 @@ public:
     this->Determinant = glm::dot(this->Corners[0], this->First);
   }
 
-  /// Positive or negative for the two sides that the point may see of the triangle.
-  double GetDeterminant() const { return this->Determinant; }
+  /// Positive or negative for the two sides that the point may see of the triangle; 0 if it lies in
+  /// the triangle's plane, but for rounding.
+  double GetSide() const
+  {
+    const double size = GetBound(this->Corners[0]) * GetBound(this->First);
+    return std::abs(this->Determinant) > Slack * size ? this->Determinant : 0.0;
+  }
 
   /// The normal of a plane, to the inside, times a size that all points share.
   glm::dvec3 GetNormal(int plane) const
@@ -291,20 +295,32 @@ PolygonVisibility::PolygonVisibility(
   {
     this->Vertices.push_back(frame.ToMetric(vertex));
   }
+  // Where a plane cut a corner off, an edge may be mere rounding.
+  glm::dvec3 longest(0.0);
+  for (std::size_t i = 0; i < this->Vertices.size(); ++i)
+  {
+    const glm::dvec3 edge = this->Vertices[(i + 1) % this->Vertices.size()] - this->Vertices[i];
+    longest = glm::length(edge) > glm::length(longest) ? edge : longest;
+  }
   const glm::dvec3 normal = glm::normalize(frame.DirectionToMetric(seen.GetNormal()));
-  this->AxisX = glm::normalize(this->Vertices[1] - this->Vertices[0]);
+  this->AxisX = glm::normalize(longest);
   this->AxisY = glm::cross(normal, this->AxisX);
   for (const glm::dvec3& vertex : this->Vertices)
   {
     const glm::dvec3 d = vertex - this->Vertices[0];
     this->Outline.emplace_back(glm::dot(d, this->AxisX), glm::dot(d, this->AxisY));
   }
+  // In the scene's order: that of the selection depends on what else there is.
   const std::vector<glm::dvec3>& points = occluders.GetPoints();
-  for (const auto& [a, b, c] : occluders.GetTriangles())
+  const auto place = [&](std::uint32_t i)
+  { return this->ToMetric * (points[i] - glm::dvec3(0.5, 0.5, 0.0)); };
+  for (const Caster& caster : occluders.GetCasters())
   {
-    this->Triangles.push_back({ this->GetPlace(points[a]) + glm::dvec3(0.0, 0.0, points[a].z),
-      this->GetPlace(points[b]) + glm::dvec3(0.0, 0.0, points[b].z),
-      this->GetPlace(points[c]) + glm::dvec3(0.0, 0.0, points[c].z) });
+    for (std::size_t t = 0; t < caster.Triangles; ++t)
+    {
+      const auto& [a, b, c] = occluders.GetTriangles()[caster.First + t];
+      this->Triangles.push_back({ place(a), place(b), place(c) });
+    }
   }
 }
 
@@ -320,7 +336,7 @@ PolygonVisibility::Indices PolygonVisibility::FindNear(
     this->GetPlace({ high.x, low.y }), this->GetPlace({ low.x, high.y }), this->GetPlace(high) };
   // For one point of the light, how far inside a plane it is is an affine function of the point
   // that looks, as long as that sees the same side of the triangle: what is outside for all
-  // corners is so for all points between them.
+  // corners is so for all points between them. From within the triangle's plane, no side is seen.
   const auto mayBlock = [&](const Triangle& triangle)
   {
     std::array<bool, ShadowVolume::Planes> isInside{};
@@ -328,22 +344,23 @@ PolygonVisibility::Indices PolygonVisibility::FindNear(
     for (const glm::dvec3& corner : corners)
     {
       const ShadowVolume volume(triangle, corner);
-      if (side * volume.GetDeterminant() < 0.0)
+      const double own = volume.GetSide();
+      if (own == 0.0 || own * side < 0.0)
       {
         return true;
       }
-      side = volume.GetDeterminant();
+      side = own;
       for (int plane = 0; plane < ShadowVolume::Planes; ++plane)
       {
         bool& inside = isInside[static_cast<std::size_t>(plane)];
         const glm::dvec3 normal = volume.GetNormal(plane);
-        const double own = volume.GetOwnDepth(plane);
+        const double ownDepth = volume.GetOwnDepth(plane);
         inside = inside ||
           std::any_of(this->Vertices.begin(), this->Vertices.end(),
             [&](const glm::dvec3& vertex)
             {
               const glm::dvec3 d = vertex - corner;
-              return glm::dot(normal, d) + own > -Slack * GetBound(normal) * GetBound(d);
+              return glm::dot(normal, d) + ownDepth > -Slack * GetBound(normal) * GetBound(d);
             });
       }
     }

@@ -38,7 +38,7 @@ public:
   /**
    * @param frame the receiver's
    * @param seen the light's part in front of the receiver, valid
-   * @param occluders with what may block it selected; translucent triangles are left out
+   * @param occluders with what may block it selected, none of it translucent
    */
   PolygonVisibility(
     const ReceiverFrame& frame, const PolygonLight& seen, const OccluderSelector& occluders);
@@ -52,11 +52,11 @@ public:
   /**
    * The share, in [0, 1], of what the light would send to a point of the receiver. None if rounding
    * decides that: the light is 1e8 times as far away as large, or seen from its edge. None, too, if
-   * what is seen falls into more than MaximumPieces.
+   * what is seen falls into more than MaximumPieces, or one of these has many vertices.
    * @param near FindNear() of a part that holds the point
    */
   std::optional<double> FindShare(const glm::dvec2& place, const Indices& near) const;
-  static constexpr std::size_t MaximumPieces = 256;
+  static constexpr std::size_t MaximumPieces = 64;
 
 private:
   using Triangle = std::array<glm::dvec3, 3>;

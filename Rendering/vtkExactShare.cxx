@@ -3,10 +3,12 @@
 #include "vtkExactShare.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkRadianceResolver.h"
 #include "vtkSMPTools.h"
 #include "vtkStageTexture.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 vtkStandardNewMacro(vtkExactShare);
@@ -15,8 +17,6 @@ namespace
 {
 
 constexpr int TileSide = 16;
-/// How near to a penumbra a texel is looked at that all samples, or none, reach.
-constexpr int Margin = 3; // as many as vtkRadianceResolver has counts of
 constexpr float None = -1.0f;
 /// What a share is away from 0 or 1 by rounding.
 constexpr double Rounding = 1e-9;
@@ -51,7 +51,7 @@ bool vtkExactShare::Begin(const penumbra::PolygonVisibility* visibility,
 {
   this->Visibility = visibility;
   this->Texels = texels;
-  this->Count = 0;
+  this->Found.clear();
   return !visibility || this->Texture->Allocate(window, largest, 1);
 }
 
@@ -62,23 +62,42 @@ bool vtkExactShare::Find(vtkStageTexture* counted, const glm::ivec2& firstTexel,
   {
     return false;
   }
+  auto shares = std::find_if(this->Found.begin(), this->Found.end(),
+    [&](const Shares& found) { return found.Rectangle == rectangle; });
+  if (shares == this->Found.end())
+  {
+    this->Found.push_back(this->FindShares(counted, firstTexel, around, rectangle));
+    shares = this->Found.end() - 1;
+  }
+  if (shares->Count > 0)
+  {
+    this->Texture->Upload(rectangle.GetSize(), shares->Values.data());
+  }
+  return shares->Count > 0;
+}
+
+vtkExactShare::Shares vtkExactShare::FindShares(vtkStageTexture* counted,
+  const glm::ivec2& firstTexel, const penumbra::TexelRectangle& around,
+  const penumbra::TexelRectangle& rectangle) const
+{
   const std::vector<float> counts =
     counted->Download({ around.Low - firstTexel, around.High - firstTexel });
   const std::size_t components = counts.size() / static_cast<std::size_t>(around.GetArea());
   const auto area = static_cast<std::size_t>(rectangle.GetArea());
-  this->Wanted.assign(area, false);
+  std::vector<bool> wanted(area, false);
+  const int margin = vtkRadianceResolver::GetReconstructionHalo(); // as far as there are counts
   ForEachTexel(around,
     [&](const glm::ivec2& texel)
     {
       const float share = counts[GetIndex(around, texel) * components];
       if (share > 0.0f && share < 1.0f)
       {
-        const penumbra::TexelRectangle near{ texel - Margin, texel + Margin + 1 };
+        const penumbra::TexelRectangle near{ texel - margin, texel + margin + 1 };
         ForEachTexel(near.Intersection(rectangle),
-          [&](const glm::ivec2& wanted) { this->Wanted[GetIndex(rectangle, wanted)] = true; });
+          [&](const glm::ivec2& other) { wanted[GetIndex(rectangle, other)] = true; });
       }
     });
-  this->Shares.assign(area, None);
+  Shares shares{ rectangle, std::vector<float>(area, None) };
   const glm::ivec2 tiles = (rectangle.GetSize() + TileSide - 1) / TileSide;
   vtkSMPTools::For(0, static_cast<vtkIdType>(tiles.x) * tiles.y, 1,
     [&](vtkIdType begin, vtkIdType end)
@@ -89,30 +108,24 @@ bool vtkExactShare::Find(vtkStageTexture* counted, const glm::ivec2& firstTexel,
         const glm::ivec2 low =
           rectangle.Low + TileSide * glm::ivec2(tile % tiles.x, tile / tiles.x);
         const penumbra::TexelRectangle whole{ low, low + TileSide };
-        this->FindTile(whole.Intersection(rectangle), rectangle);
+        this->FindTile(whole.Intersection(rectangle), wanted, shares);
       }
     });
-  const auto found = static_cast<std::size_t>(std::count_if(
-    this->Shares.begin(), this->Shares.end(), [](float share) { return share != None; }));
-  this->Count += found;
-  if (found == 0)
-  {
-    return false;
-  }
-  this->Texture->Upload(rectangle.GetSize(), this->Shares.data());
-  return true;
+  shares.Count = static_cast<std::size_t>(std::count_if(
+    shares.Values.begin(), shares.Values.end(), [](float share) { return share != None; }));
+  return shares;
 }
 
 void vtkExactShare::FindTile(
-  const penumbra::TexelRectangle& tile, const penumbra::TexelRectangle& rectangle)
+  const penumbra::TexelRectangle& tile, const std::vector<bool>& wanted, Shares& shares) const
 {
   std::optional<penumbra::PolygonVisibility::Indices> near;
   const glm::dvec2 texels(this->Texels);
   ForEachTexel(tile,
     [&](const glm::ivec2& texel)
     {
-      const std::size_t index = GetIndex(rectangle, texel);
-      if (!this->Wanted[index])
+      const std::size_t index = GetIndex(shares.Rectangle, texel);
+      if (!wanted[index])
       {
         return;
       }
@@ -126,18 +139,26 @@ void vtkExactShare::FindTile(
       if (share)
       {
         const double rounded = *share < Rounding ? 0.0 : *share > 1.0 - Rounding ? 1.0 : *share;
-        this->Shares[index] = static_cast<float>(rounded);
+        shares.Values[index] = static_cast<float>(rounded);
       }
     });
 }
 
+std::size_t vtkExactShare::GetCount() const
+{
+  return std::accumulate(this->Found.begin(), this->Found.end(), std::size_t{ 0 },
+    [](std::size_t sum, const Shares& shares) { return sum + shares.Count; });
+}
+
 void vtkExactShare::ReleaseGraphicsResources()
 {
+  this->Visibility = nullptr;
+  this->Found.clear();
   this->Texture->ReleaseGraphicsResources();
 }
 
 void vtkExactShare::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Count: " << this->Count << "\n";
+  os << indent << "Count: " << this->GetCount() << "\n";
 }

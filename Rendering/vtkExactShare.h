@@ -5,8 +5,8 @@
  * @brief the share of a light that texels see, from the occluders themselves
  *
  * Where few triangles decide what is seen (penumbra::PairPlan::IsExact()), cutting the light along
- * their shadows (penumbra::PolygonVisibility) costs no more than counting many samples, and has no
- * error. Samples still tell where penumbras are.
+ * their shadows (penumbra::PolygonVisibility) costs about what counting many samples does, and has
+ * no error but rounding. Samples still tell where penumbras are.
  */
 #ifndef vtkExactShare_h
 #define vtkExactShare_h
@@ -17,7 +17,8 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 
-#include <vector> // for shares
+#include <cstddef> // for std::size_t
+#include <vector>  // for shares
 
 class vtkOpenGLRenderWindow;
 class vtkStageTexture;
@@ -41,8 +42,8 @@ public:
    * Find the shares of the texels of a rectangle that are in a penumbra, or near one: samples that
    * all see the light, or do not, may have missed a part of it. `counted` has what samples say
    * (vtkVisibilityShare); its texel (0, 0) is the receiver's `firstTexel`, and the
-   * receiver's texels in `around` are taken from it. False if there are none. The caller saves and
-   * restores vtkOpenGLState around it.
+   * receiver's texels in `around` are taken from it; it must be the same for the same rectangle,
+   * since Begin(). False if there are none. The caller saves and restores vtkOpenGLState around it.
    */
   bool Find(vtkStageTexture* counted, const glm::ivec2& firstTexel,
     const penumbra::TexelRectangle& around, const penumbra::TexelRectangle& rectangle);
@@ -55,7 +56,7 @@ public:
   /**
    * How many texels have got one since Begin().
    */
-  std::size_t GetCount() const { return this->Count; }
+  std::size_t GetCount() const;
 
   /**
    * Free the OpenGL resources.
@@ -70,14 +71,23 @@ private:
   vtkExactShare(const vtkExactShare&) = delete;
   void operator=(const vtkExactShare&) = delete;
 
-  /// Finds the shares that are wanted of a tile in `rectangle`, whose shares are in Shares.
-  void FindTile(const penumbra::TexelRectangle& tile, const penumbra::TexelRectangle& rectangle);
+  /// The shares of a rectangle's texels, row by row.
+  struct Shares
+  {
+    penumbra::TexelRectangle Rectangle;
+    std::vector<float> Values;
+    std::size_t Count = 0; ///< of texels that have one
+  };
+
+  Shares FindShares(vtkStageTexture* counted, const glm::ivec2& firstTexel,
+    const penumbra::TexelRectangle& around, const penumbra::TexelRectangle& rectangle) const;
+  /// Finds those of a tile that are wanted; `wanted` says so for each of the shares.
+  void FindTile(
+    const penumbra::TexelRectangle& tile, const std::vector<bool>& wanted, Shares& shares) const;
 
   const penumbra::PolygonVisibility* Visibility = nullptr;
   glm::ivec2 Texels{ 1 };
-  std::vector<bool> Wanted; ///< the texels of the rectangle
-  std::vector<float> Shares;
-  std::size_t Count = 0;
+  std::vector<Shares> Found; ///< since Begin(): what is asked for again is not found again
   vtkNew<vtkStageTexture> Texture;
 };
 

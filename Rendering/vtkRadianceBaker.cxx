@@ -233,7 +233,6 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     {
       glFinish();
     }
-    job.Result.Pairs[light].ExactTexels = this->Resolver->GetExactCount();
     job.Result.Pairs[light].Milliseconds = 1000.0 * (vtkTimerLog::GetUniversalTime() - start);
   }
   return !hasTolerance || this->RefineLights(job);
@@ -282,7 +281,13 @@ bool vtkRadianceBaker::BakeLight(Job& job, std::size_t light, int count)
   {
     this->Resolver->ResolveUniform(job.Target, job.Region, lit, 1.0f);
   }
-  return job.Resolved.Intersection(pair.Shaded).IsEmpty() || this->BakeShaded(job, light, count);
+  if (job.Resolved.Intersection(pair.Shaded).IsEmpty())
+  {
+    return true;
+  }
+  const bool isDone = this->BakeShaded(job, light, count);
+  job.Result.Pairs[light].ExactTexels = this->Resolver->GetExactCount();
+  return isDone;
 }
 
 bool vtkRadianceBaker::BakeShaded(Job& job, std::size_t light, int count)
@@ -631,6 +636,7 @@ bool vtkRadianceBaker::RefineLight(
     previous = grows ? count : 0;
   }
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
+  job.Result.Pairs[light].ExactTexels = this->Resolver->GetExactCount();
   for (const penumbra::TexelRectangle& lit : Subtract(job.Resolved, shaded))
   {
     this->Resolver->ResolveUniform(job.Target, job.Region, lit, 1.0f);

@@ -9,8 +9,8 @@
  * pass and the RadianceMap filter both bake by this class, so that the same scene gives the same
  * texels, bit for bit; whether a receiver is baked at once or in parts changes no bit either.
  *
- * Nothing is read back, but for ErrorTolerance and exact shares. Masks cover what shadows can reach, and are drawn
- * in bands of rows of at most MaximumMaskBytes.
+ * Nothing is read back, but for ErrorTolerance and exact shares. Masks cover what shadows can
+ * reach, and are drawn in bands of rows of at most MaximumMaskBytes.
  */
 #ifndef vtkRadianceBaker_h
 #define vtkRadianceBaker_h

@@ -145,8 +145,8 @@ public:
 
   /**
    * From now on, find the shares within penumbras by `exact`, which is kept by reference: what was
-   * counted says where penumbras are. The light must have one share alone. nullptr, as after
-   * Begin(): by samples. False, after vtkErrorMacro, if OpenGL refuses.
+   * counted says where penumbras are, and must not change any more. All components get the same
+   * share. nullptr, as after Begin(): by samples. False, after vtkErrorMacro, if OpenGL refuses.
    */
   bool SetExact(const penumbra::PolygonVisibility* exact);
 

@@ -214,9 +214,9 @@ TEST(BakeChange, IsAllShadowsWhereTheyGetHard)
   ExpectStale(Compare(hard, soft), all);
 }
 
-// Shares that were exact are counted from now on, or the other way round, on all texels; masks are
+// Shares that were exact are counted from now on, or the other way round, in all shadows; masks are
 // what they were.
-TEST(BakeChange, IsEverywhereButNotDrawnWhereSharesCeaseToBeExact)
+TEST(BakeChange, IsInAllShadowsButNotDrawnWhereSharesCeaseToBeExact)
 {
   PlanScene few = MakeScene();
   few.GetSettings().LightSamples = 512; // enough for 64 triangles
@@ -227,9 +227,12 @@ TEST(BakeChange, IsEverywhereButNotDrawnWhereSharesCeaseToBeExact)
   ASSERT_FALSE(now.Pairs.front().IsExact(512));
   for (const BakeChange& change : { Compare(few, many), Compare(many, few) })
   {
-    EXPECT_EQ(change.Resolved, Whole);
+    EXPECT_EQ(change.Resolved, WithHalo(now.Pairs.front().Shaded));
     EXPECT_EQ(change.Lights.front().Stale, GetShadow(now, 2));
   }
+  PlanScene none = few;
+  none.Surfaces.erase(none.Surfaces.begin() + 1, none.Surfaces.end());
+  EXPECT_EQ(Compare(few, none).Resolved, WithHalo(before.Pairs.front().Shaded));
 }
 
 // Where an occluder is as high as the light, bits may depend on the rectangle that is drawn.

@@ -114,11 +114,39 @@ TEST(ExactShares, HaveNoError)
   EXPECT_EQ(*std::max_element(bake.Texels.Variance.begin(), bake.Texels.Variance.end()), 0.0f);
 }
 
+// The finer texels of a supersampled bake are those of a bake of so many.
 TEST(ExactShares, AreOfSupersampledTexels)
 {
+  TestScene fine = MakeBoxScene();
+  fine.Texels *= 2;
+  const std::vector<glm::vec4> texels = BakeReceiver(fine.MakeScene()).Texels.Irradiance;
   TestScene scene = MakeBoxScene();
   scene.Settings.Supersampling = 2;
-  EXPECT_GT(CountExactTexels(scene), 0u);
+  const TestBake bake = BakeReceiver(scene.MakeScene());
+  EXPECT_GT(CountExactTexels(bake), 0u);
+  const auto at = [&](int i, int j)
+  {
+    const glm::ivec2 t = glm::clamp(glm::ivec2(i, j), glm::ivec2(0), fine.Texels - 1);
+    return glm::dvec3(texels[static_cast<std::size_t>(t.y * fine.Texels.x + t.x)]);
+  };
+  double largest = 0.0;
+  for (int j = 1; j + 1 < scene.Texels.y; ++j)
+  {
+    for (int i = 1; i + 1 < scene.Texels.x; ++i)
+    {
+      // A tent that reaches the neighbours' centres: of 4 x 4 finer texels.
+      constexpr double Weights[] = { 0.125, 0.375, 0.375, 0.125 };
+      glm::dvec3 sum(0.0);
+      for (int k = 0; k < 16; ++k)
+      {
+        sum += Weights[k % 4] * Weights[k / 4] * at(2 * i - 1 + k % 4, 2 * j - 1 + k / 4);
+      }
+      const glm::vec4& baked =
+        bake.Texels.Irradiance[static_cast<std::size_t>(j * scene.Texels.x + i)];
+      largest = std::max(largest, glm::length(glm::dvec3(baked) - sum) / glm::length(at(0, 0)));
+    }
+  }
+  EXPECT_LE(largest, 1e-5);
 }
 
 // Who asks for few samples asks for speed.
@@ -164,6 +192,16 @@ TEST(ExactShares, AreNotOfTranslucentOccluders)
   EXPECT_EQ(CountExactTexels(BakeReceiver(scene)), 0u);
 }
 
+// Lights that arrive nowhere have none, whatever others have.
+TEST(ExactShares, AreCountedForEachLight)
+{
+  TestScene scene = MakeBoxScene();
+  scene.AddLight({ -0.5, 0.5, -2.0 }, { 0.5, 0.5, -2.0 }, { -0.5, -0.5, -2.0 });
+  const TestBake bake = BakeReceiver(scene.MakeScene());
+  EXPECT_GT(bake.Reports.front().Pairs[0].ExactTexels, 0u);
+  EXPECT_EQ(bake.Reports.front().Pairs[1].ExactTexels, 0u);
+}
+
 // With an accuracy that no number of samples reaches, they are taken up to where shares are exact.
 TEST(ExactShares, EndErrorTolerance)
 {
@@ -173,6 +211,8 @@ TEST(ExactShares, EndErrorTolerance)
   const TestBake bake = BakeReceiver(scene.MakeScene());
   EXPECT_EQ(bake.Reports.front().StoppedBy, "ErrorTolerance");
   EXPECT_EQ(bake.Reports.front().Pairs.front().LightSamples, 512);
+  EXPECT_GT(CountExactTexels(bake), 0u);
+  EXPECT_LE(CountExactTexels(bake), bake.Texels.Irradiance.size());
   EXPECT_LE(CompareWithOracle(scene).Maximum, 1e-5);
 }
 

@@ -217,6 +217,75 @@ TEST(PolygonVisibility, NeedsOnlyWhatIsNear)
   EXPECT_LT(few, all);
 }
 
+// Walls that stand on the lines between parts, and across their corners, seen from either side.
+TEST(PolygonVisibility, NeedsWallsThatStandOnTheBordersOfParts)
+{
+  const penumbra::ReceiverFrame frame(
+    { { -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }, penumbra::ReceiverFrame::Side::Front);
+  constexpr int Parts = 16, Points = 8;
+  int shaded = 0;
+  for (const oracle::Vec3& along : { oracle::Vec3{ 0, 1, 0 }, oracle::Vec3{ 1, 0, 0 },
+         oracle::Vec3{ 1, -1, 0 }, oracle::Vec3{ 1, 1, 0 } })
+  {
+    const oracle::Vec3 a = -1 * along, up{ 0, 0, 0.0625L };
+    for (const bool isTurned : { false, true })
+    {
+      std::vector<oracle::Triangle> wall = { { a, along, along + up }, { a, along + up, a + up } };
+      for (oracle::Triangle& t : wall)
+      {
+        t = isTurned ? oracle::Triangle{ t.A, t.C, t.B } : t;
+      }
+      const Scene scene(frame, PlanScene::MakeLamp(-0.6, 0.4, 2, 0.4), wall);
+      for (int part = 0; part < Parts * Parts; ++part)
+      {
+        const glm::dvec2 low = glm::dvec2(part % Parts, part / Parts) / double(Parts);
+        const PolygonVisibility::Indices near = scene.Visibility->FindNear(low, low + 1.0 / Parts);
+        for (int i = 0; i < Points * Points; ++i)
+        {
+          const glm::dvec2 uv =
+            low + (glm::dvec2(i % Points, i / Points) + 0.5) / double(Parts * Points);
+          const std::optional<double> share = scene.FindShare(uv);
+          EXPECT_EQ(scene.Visibility->FindShare(uv, near), share) << uv.x << " " << uv.y;
+          shaded += share && *share < 0.9 ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(shaded, 100);
+}
+
+// A light with a corner on the receiver and another one below it: cut, it has an edge that is
+// nothing but rounding.
+TEST(PolygonVisibility, IsExactForLightsThatAReceiverCuts)
+{
+  LargestDeviation largest;
+  int compared = 0;
+  for (unsigned seed = 0; seed < Rounds; ++seed)
+  {
+    RandomGeometry random(seed);
+    const penumbra::ReceiverFrame frame = RandomNearFrame(random);
+    const auto at = [&](double h) {
+      return frame.ToWorld({ random.Between(-1.0, 2.0), random.Between(-1.0, 2.0), h });
+    };
+    const glm::dvec3 on = at(0.0), below = at(-random.Between(0.1, 1.0)),
+                     above = at(random.Between(0.5, 2.0));
+    PolygonLight light = PolygonLight::Triangle(on, below, above);
+    const Scene scene(frame, light, RandomTriangles(random, frame, 6));
+    for (int i = 0; i < 10 && scene.Seen.IsValid(); ++i)
+    {
+      const glm::dvec2 uv(random.Between(0.0, 1.0), random.Between(0.0, 1.0));
+      const std::optional<long double> exact = scene.GetExact(uv);
+      const std::optional<double> share = scene.FindShare(uv);
+      if (exact && share)
+      {
+        EXPECT_LE(largest.Add(*share - *exact), 1e-7) << seed;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 8 * Rounds);
+}
+
 // A mesh has no cracks, and what it leaves has no seams: nothing is seen through a plate of many
 // triangles, all of the light past it, and exactly half of it along its edge.
 TEST(PolygonVisibility, HasNoCracks)
