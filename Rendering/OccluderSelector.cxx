@@ -215,6 +215,7 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
     [&](const ClusterTree::Items& triangles)
     {
       Part& part = this->GetPart(index);
+      caster.Rounding = glm::length(part.Uncertainty) / this->Frame.GetSize();
       for (const std::uint32_t t : triangles)
       {
         if (isReceivers && surface.Regions[t] == this->Base->Region)

@@ -24,6 +24,7 @@ struct Caster
   std::size_t Surface = 0;   ///< index into the scene's
   std::size_t Triangles = 0; ///< how many of its triangles may
   std::size_t First = 0;     ///< of these, in GetTriangles() or GetTranslucent()
+  double Rounding = 0.0;     ///< how far their points may be off, in units of the receiver's size
   ShadowBounds Shadow;
 };
 

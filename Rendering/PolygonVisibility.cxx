@@ -41,17 +41,32 @@ public:
 
   ShadowVolume(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& point)
     : Corners{ triangle[0] - point, triangle[1] - point, triangle[2] - point }
+    , First(glm::cross(this->Corners[1], this->Corners[2]))
+    , Determinant(glm::dot(this->Corners[0], this->First))
   {
-    this->First = glm::cross(this->Corners[1], this->Corners[2]);
-    this->Determinant = glm::dot(this->Corners[0], this->First);
   }
 
-  /// Positive or negative for the two sides that the point may see of the triangle; 0 if it lies in
-  /// the triangle's plane, but for rounding.
-  double GetSide() const
+  /// Positive or negative for the two sides that the point may see of the triangle; 0 if it is no
+  /// farther from the triangle's plane than `rounding`, or than these numbers round.
+  double GetSide(double rounding) const
   {
-    const double size = GetBound(this->Corners[0]) * GetBound(this->First);
-    return std::abs(this->Determinant) > Slack * size ? this->Determinant : 0.0;
+    const auto& [a, b, c] = this->Corners;
+    const double inPlane = std::max(
+      Slack * GetBound(a) * GetBound(this->First), rounding * GetBound(glm::cross(b - a, c - a)));
+    return std::abs(this->Determinant) > inPlane ? this->Determinant : 0.0;
+  }
+
+  /// Of a point in the triangle's plane: whether it is no farther than that from the triangle.
+  bool IsTouched(double rounding) const
+  {
+    const auto& [a, b, c] = this->Corners;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const auto isInside = [&](const glm::dvec3& p, const glm::dvec3& q)
+    {
+      const double size = rounding * GetBound(q - p) + Slack * GetBound(p) * GetBound(q);
+      return glm::dot(glm::cross(p, q), normal) >= -size * GetBound(normal);
+    };
+    return isInside(a, b) && isInside(b, c) && isInside(c, a);
   }
 
   /// The normal of a plane, to the inside, times a size that all points share.
@@ -319,7 +334,7 @@ PolygonVisibility::PolygonVisibility(
     for (std::size_t t = 0; t < caster.Triangles; ++t)
     {
       const auto& [a, b, c] = occluders.GetTriangles()[caster.First + t];
-      this->Triangles.push_back({ place(a), place(b), place(c) });
+      this->Triangles.push_back({ { place(a), place(b), place(c) }, caster.Rounding });
     }
   }
 }
@@ -343,8 +358,8 @@ PolygonVisibility::Indices PolygonVisibility::FindNear(
     double side = 0.0;
     for (const glm::dvec3& corner : corners)
     {
-      const ShadowVolume volume(triangle, corner);
-      const double own = volume.GetSide();
+      const ShadowVolume volume(triangle.Corners, corner);
+      const double own = volume.GetSide(triangle.Rounding);
       if (own == 0.0 || own * side < 0.0)
       {
         return true;
@@ -398,7 +413,17 @@ std::optional<double> PolygonVisibility::FindShare(
   Pieces pieces(whole);
   for (const std::uint32_t i : near)
   {
-    const std::optional<Shadow> shadow = view.Cast(ShadowVolume(this->Triangles[i], x));
+    const auto& [corners, rounding] = this->Triangles[i];
+    const ShadowVolume volume(corners, x);
+    if (volume.GetSide(rounding) == 0.0)
+    {
+      if (volume.IsTouched(rounding))
+      {
+        return std::nullopt; // is the point under a box or beside it?
+      }
+      continue; // what is seen from its edge hides nothing
+    }
+    const std::optional<Shadow> shadow = view.Cast(volume);
     if (shadow && !pieces.Subtract(*shadow))
     {
       return std::nullopt;

@@ -51,15 +51,20 @@ public:
 
   /**
    * The share, in [0, 1], of what the light would send to a point of the receiver. None if rounding
-   * decides that: the light is 1e8 times as far away as large, or seen from its edge. None, too, if
-   * what is seen falls into more than MaximumPieces, or one of these has many vertices.
+   * decides that: the point touches a triangle, or the light is 1e8 times as far away as large, or
+   * seen from its edge. None, too, if what is seen falls into more than MaximumPieces, or one of
+   * these has many vertices.
    * @param near FindNear() of a part that holds the point
    */
   std::optional<double> FindShare(const glm::dvec2& place, const Indices& near) const;
   static constexpr std::size_t MaximumPieces = 64;
 
 private:
-  using Triangle = std::array<glm::dvec3, 3>;
+  struct Triangle
+  {
+    std::array<glm::dvec3, 3> Corners;
+    double Rounding; ///< a point that is no farther from its plane is in it
+  };
 
   glm::dvec3 GetPlace(const glm::dvec2& uv) const;
 

@@ -192,6 +192,28 @@ TEST(ExactShares, AreNotOfTranslucentOccluders)
   EXPECT_EQ(CountExactTexels(BakeReceiver(scene)), 0u);
 }
 
+// A box whose walls stand right on texels' centres: these are under it or beside it, as samples
+// say.
+TEST(ExactShares, FollowSamplesWhereTexelsTouchOccluders)
+{
+  TestScene scene = MakeBoxScene();
+  scene.Texels = glm::ivec2(40); // centres at odd multiples of 0.05
+  scene.Occluders.clear();
+  scene.AddBox({ -0.55, -0.35, 0.0 }, { 0.25, 0.45, 0.6 });
+  const TestBake exact = BakeReceiver(scene.MakeScene());
+  scene.Settings.Reconstruction = false;
+  const TestBake counted = BakeReceiver(scene.MakeScene());
+  EXPECT_GT(CountExactTexels(exact), 0u);
+  float largest = 0.0f, peak = 0.0f;
+  for (std::size_t i = 0; i < counted.Texels.Irradiance.size(); ++i)
+  {
+    const glm::vec4 &a = exact.Texels.Irradiance[i], &b = counted.Texels.Irradiance[i];
+    largest = std::max(largest, std::abs(a.r - b.r));
+    peak = std::max(peak, b.r);
+  }
+  EXPECT_LE(largest, 0.02f * peak);
+}
+
 // Lights that arrive nowhere have none, whatever others have.
 TEST(ExactShares, AreCountedForEachLight)
 {
