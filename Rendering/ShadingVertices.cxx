@@ -3,6 +3,7 @@
 #include "ShadingVertices.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace penumbra
 {
@@ -73,6 +74,22 @@ bool IsUnshadowed(const ReceiverPlan& plan)
   return std::all_of(plan.Pairs.begin(), plan.Pairs.end(),
     [](const PairPlan& pair)
     { return pair.Needed == Effect::None || pair.Needed == Effect::Unoccluded; });
+}
+
+bool IsPlain(const ReceiverPlan& plan, const ReceiverSettings& settings)
+{
+  const auto isGrey = [](const glm::dvec3& v) { return v.x == v.y && v.x == v.z; };
+  bool isPlain = IsUnshadowed(plan) && isGrey(settings.AmbientRadiance);
+  for (std::size_t i = 0; i < plan.Lights.size() && isPlain; ++i)
+  {
+    const std::vector<EmittingPolygon> polygons = plan.Lights[i]->GetPolygons();
+    const bool areGrey = polygons.empty()
+      ? isGrey(plan.Lights[i]->Radiance)
+      : std::all_of(polygons.begin(), polygons.end(),
+          [&](const EmittingPolygon& polygon) { return isGrey(polygon.Radiance); });
+    isPlain = plan.Pairs[i].Needed == Effect::None || areGrey;
+  }
+  return isPlain;
 }
 
 int CountShadingVertices(const ReceiverPlan& plan, const ReceiverSettings& settings)

@@ -20,6 +20,10 @@ PENUMBRARENDERING_EXPORT bool IsSmooth(const ReceiverPlan& plan);
 /// Whether no light is blocked anywhere on the receiver.
 PENUMBRARENDERING_EXPORT bool IsUnshadowed(const ReceiverPlan& plan);
 
+/// Whether 'Shadow' shading (vtkShadowFactors) changes nothing: no light is blocked, and all that
+/// arrives is grey, so that no hue is taken on either.
+PENUMBRARENDERING_EXPORT bool IsPlain(const ReceiverPlan& plan, const ReceiverSettings& settings);
+
 /**
  * How many vertices along each edge, 2 to 33, shade a smooth receiver (H&H 1997, 3.8) by bilinear
  * interpolation to within its PlannerTolerance, of the light that arrives and of the light that is

@@ -139,8 +139,8 @@ vtkBakedProp::~vtkBakedProp() = default;
 int vtkBakedProp::CountVertices(const penumbra::ReceiverPlan& plan,
   const penumbra::ReceiverSettings& settings, bool showsRadiance)
 {
-  // Where nothing is blocked, shadows are 1 at any vertex.
-  return penumbra::IsUnshadowed(plan) && !showsRadiance
+  // Where nothing is blocked, and nothing has a hue, factors are 1 at any vertex.
+  return penumbra::IsPlain(plan, settings) && !showsRadiance
     ? 2
     : penumbra::CountShadingVertices(plan, settings);
 }
@@ -165,18 +165,18 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   this->DropTile();
   window->MakeCurrent(); // which that may have changed
   std::vector<Entry> entries;
-  bool hasShadows = false;
+  bool isPlain = !showsRadiance;
   for (const std::size_t i : receivers)
   {
     const penumbra::Receiver& receiver = scene.Receivers[i];
     Entry entry{ i, scene.Surfaces[receiver.Surface], receiver, plans[i], receiver.Base, 0, {}, {},
       {} };
-    hasShadows = hasShadows || !penumbra::IsUnshadowed(entry.Plan);
+    isPlain = isPlain && penumbra::IsPlain(entry.Plan, receiver.Settings);
     entry.Vertices = CountVertices(entry.Plan, receiver.Settings, showsRadiance);
     entry.Report = vtkRadianceBaker::MakeReport(entry.Plan, scene, i);
     entries.push_back(std::move(entry));
   }
-  if (!hasShadows && !showsRadiance)
+  if (isPlain)
   {
     const bool wasTextured = this->IsTextured;
     this->ReleaseGraphicsResources();

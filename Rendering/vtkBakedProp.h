@@ -9,8 +9,8 @@
  * it leaves is, to the bit, what a whole bake of the same scene gives.
  *
  * Receivers whose light is smooth have a few vertices instead of texels
- * (penumbra::ShadingVertices); a prop whose receivers have no shadow to show has no texture. Two
- * triangles share a rectangle of texels (penumbra::AtlasLayout).
+ * (penumbra::ShadingVertices); a prop whose receivers have no shadow and no hue to show has no
+ * texture. Two triangles share a rectangle of texels (penumbra::AtlasLayout).
  */
 #ifndef vtkBakedProp_h
 #define vtkBakedProp_h

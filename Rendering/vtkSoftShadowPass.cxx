@@ -437,7 +437,7 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
     {
       const penumbra::ReceiverSettings& settings = receivers[i].Settings;
       const int vertices = vtkBakedProp::CountVertices(plans[i], settings, showsRadiance);
-      hasTexture = hasTexture || !penumbra::IsUnshadowed(plans[i]);
+      hasTexture = hasTexture || !penumbra::IsPlain(plans[i], settings);
       need.HasVariance = need.HasVariance || settings.ErrorTolerance > 0.0;
       need.Receivers.push_back({ vertices > 0 ? glm::ivec2(vertices) : receivers[i].Texels,
         penumbra::FindSharpestPenumbra(plans[i]), vertices > 0,

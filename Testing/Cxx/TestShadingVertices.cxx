@@ -161,6 +161,28 @@ TEST(ShadingVertices, AreAsManyAsItTakes)
   EXPECT_EQ(count(scene), 0) << "samples decide";
 }
 
+// A coloured light has its hue on receivers that have a shadow of it, and so on those without one.
+TEST(ShadingVertices, KnowWhatIsPlain)
+{
+  PlanScene scene;
+  scene.Lights = { PlanScene::MakeLamp(0, 0, 2, 0.2) };
+  const auto isPlain = [&] { return penumbra::IsPlain(scene.Plan(), scene.GetSettings()); };
+  EXPECT_TRUE(isPlain());
+  scene.Lights.front()->Radiance = glm::dvec3(7.0);
+  EXPECT_TRUE(isPlain());
+  scene.Lights.front()->Radiance = { 7.0, 7.0, 8.0 };
+  EXPECT_FALSE(isPlain());
+  scene.Lights.front()->Radiance = glm::dvec3(1.0);
+  scene.GetSettings().AmbientRadiance = { 0.1, 0.2, 0.1 };
+  EXPECT_FALSE(isPlain());
+  scene.GetSettings().AmbientRadiance = glm::dvec3(0.1);
+  scene.Lights.push_back(PlanScene::MakeLamp(0, 0, -1, 0.2)); // it does not arrive
+  scene.Lights.back()->Radiance = { 1.0, 0.0, 0.0 };
+  EXPECT_TRUE(isPlain());
+  scene.Surfaces.emplace_back(PlanScene::MakeSquare(0, 0, 0.5, 0.2));
+  EXPECT_FALSE(isPlain());
+}
+
 TEST(ShadingVertices, KnowWhatIsSmoothAndUnshadowed)
 {
   const auto expect = [](Effect effect, bool isSmooth, bool isUnshadowed)

@@ -89,6 +89,21 @@ TEST(SoftShadowPass, WithoutOccludersDrawsPlain)
   EXPECT_EQ(CountDifferences(withPass, scene.Render()), 0u);
 }
 
+// What is lit takes on a light's hue, whether or not there is a shadow somewhere.
+TEST(SoftShadowPass, ShowsTheHueOfLightWithoutOccluders)
+{
+  FloorScene scene;
+  scene.Light->SetRadiance(1.0, 0.8, 0.6);
+  scene.Sphere->SetRadius(0.2);
+  const PassScene::Pixels shadowed = scene.Render();
+  scene.SphereActor->VisibilityOff();
+  const PassScene::Pixels lit = scene.Render();
+  EXPECT_GT(scene.Pass->GetTextureBytes(), 0);
+  EXPECT_LT(CountDifferences(lit, shadowed), lit.size() / 4);
+  scene.SetShadows(false);
+  EXPECT_GT(CountDifferences(lit, scene.Render()), lit.size() / 4);
+}
+
 TEST(SoftShadowPass, CameraDoesNotBake)
 {
   FloorScene scene;
