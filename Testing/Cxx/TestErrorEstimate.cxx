@@ -32,6 +32,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 
 namespace
 {
@@ -62,10 +63,22 @@ struct Errors
   }
 };
 
+/// The exact answer, which is found once for all tests of a process.
+const std::vector<glm::dvec3>& GetExact(unsigned seed)
+{
+  static std::map<unsigned, std::vector<glm::dvec3>> known;
+  std::vector<glm::dvec3>& exact = known[seed];
+  if (exact.empty())
+  {
+    exact = GetExactRadiance(oracle::MakeRandomScene(seed), Texels);
+  }
+  return exact;
+}
+
 Errors MeasureErrors(unsigned seed, const penumbra::ReceiverSettings& settings)
 {
   const oracle::RandomScene random = oracle::MakeRandomScene(seed);
-  const std::vector<glm::dvec3> exact = GetExactRadiance(random, Texels);
+  const std::vector<glm::dvec3>& exact = GetExact(seed);
   const penumbra::ShadowScene scene = MakeShadowScene(random, settings, Texels);
   const penumbra::ReceiverSettings& used = scene.Receivers.front().Settings;
   const TestBake bake = BakeReceiver(scene);
