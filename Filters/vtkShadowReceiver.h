@@ -178,7 +178,7 @@ public:
    * Whether, with Reconstruction, what texels in penumbras see of a polygonal light is cut out of
    * it, along the shadows of the triangles that block it (Nishita and Nakamae 1983), where few may
    * and none of them is translucent: from 512 samples on, and from 8 for each of these triangles.
-   * That takes up to as long as the samples, which then only tell where penumbras are. The error
+   * That takes about as long again as the samples, which only tell where penumbras are. The error
    * that is left is rounding, but for slivers of the light that all samples miss: less than one
    * sample stands for. What falls into many pieces is left to the samples. Default is on.
    */

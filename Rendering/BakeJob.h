@@ -48,8 +48,7 @@ struct vtkRadianceBaker::Job
   /// How many samples of a light the receiver's settings ask for, without ErrorTolerance.
   int CountSamples(std::size_t light) const
   {
-    const int count = this->Receiver.Settings.GetSampleCount(
-      this->Plan.Lights[light]->GetSolidAngleBound(this->Receiver.Base));
+    const int count = this->Plan.Pairs[light].Samples;
     return this->Wanted.MostSamples > 0 ? std::min(count, this->Wanted.MostSamples) : count;
   }
 

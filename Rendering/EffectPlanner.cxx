@@ -256,8 +256,8 @@ void AddCaster(const SharedSurface& surface, const TexelRectangle& shadow, PairP
 int FindExactFrom(
   const LightShape& seen, const ReceiverSettings& settings, const OccluderSelector& occluders)
 {
-  // Cutting takes some 0.2 us for each triangle near a texel, which are a half of those that may
-  // block, or fewer; counting takes 0.01 us for each sample. Who asks for few samples asks for
+  // Cutting takes some 0.2 to 0.4 us for each triangle near a texel, which are a half of those that
+  // may block, or fewer; counting takes 0.01 us for each sample. Who asks for few samples asks for
   // speed.
   constexpr std::size_t SamplesPerTriangle = 8, FewSamples = 512;
   const bool isPossible = settings.Reconstruction && settings.ExactShares &&

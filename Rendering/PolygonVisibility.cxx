@@ -103,7 +103,8 @@ private:
   double Determinant;
 };
 
-/// A convex piece of the light, in its plane.
+/// A convex piece of the light, in its plane. The planner cuts polygons, too, of any number of
+/// vertices, once for a light and a receiver; here a texel does it, so that nothing is allocated.
 struct Piece
 {
   static constexpr std::size_t Capacity = 12;

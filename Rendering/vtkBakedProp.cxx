@@ -8,9 +8,11 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRadianceTexture.h"
 #include "vtkTimerLog.h"
+#include "vtkVisibilityMask.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 vtkStandardNewMacro(vtkBakedProp);
 
@@ -39,10 +41,9 @@ void LimitBytes(
   const vtkBakedProp::Entry& entry, double keptBytesPerTexel, vtkRadianceBaker::Part& part)
 {
   int samples = 0;
-  for (const penumbra::Light& light : entry.Plan.Lights)
+  for (const penumbra::PairPlan& pair : entry.Plan.Pairs)
   {
-    samples = std::max(samples,
-      entry.Settings.Settings.GetSampleCount(light->GetSolidAngleBound(entry.Settings.Base)));
+    samples = std::max(samples, pair.Samples);
   }
   constexpr double Irradiance = 16.0, Shown = 16.0 / 3.0;
   const double allowed = samples / 8.0 + 24.0;
@@ -50,6 +51,19 @@ void LimitBytes(
   const double kept = std::clamp(allowed - Irradiance - Shown, 0.0, keptBytesPerTexel);
   part.KeptBytes = static_cast<std::size_t>(kept * texels);
   part.MaskAndKeptBytes = static_cast<std::size_t>((allowed - Irradiance) * texels);
+}
+
+/// The bytes that all masks of a receiver take for each texel, were they drawn at once.
+double GetMaskBytesPerTexel(const penumbra::ReceiverPlan& plan)
+{
+  double bytes = 0.0;
+  for (const penumbra::PairPlan& pair : plan.Pairs)
+  {
+    const int layers = pair.Samples / vtkVisibilityMask::SamplesPerLayer + 1;
+    bytes += static_cast<double>(sizeof(std::uint32_t)) * layers *
+      static_cast<double>(1 + pair.Translucent);
+  }
+  return bytes * plan.Supersampling * plan.Supersampling;
 }
 
 std::size_t CountKeptBytes(const vtkBakedProp::Entry& entry)
@@ -338,13 +352,13 @@ bool vtkBakedProp::FinishTiles(
   double now = 0.0;
   do
   {
-    this->BeginTile(baker, entry, region);
+    this->BeginTile(entry, region);
     Tile& tile = this->Begun;
-    const vtkRadianceBaker::Progress progress = baker->DrawMasksUntil(
+    const penumbra::DrawProgress progress = baker->DrawMasksUntil(
       until, entry.Plan, entry.Receiver, this->Window, tile.Rectangle, tile.Masks);
-    if (progress != vtkRadianceBaker::Progress::Done)
+    if (progress != penumbra::DrawProgress::Done)
     {
-      return progress != vtkRadianceBaker::Progress::Failed;
+      return progress != penumbra::DrawProgress::Failed;
     }
     const double start = vtkTimerLog::GetUniversalTime();
     vtkRadianceBaker::Part part;
@@ -368,7 +382,7 @@ bool vtkBakedProp::FinishTiles(
   return true;
 }
 
-void vtkBakedProp::BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::size_t region)
+void vtkBakedProp::BeginTile(const Entry& entry, std::size_t region)
 {
   if (!this->Begun.Rectangle.IsEmpty() && this->Begun.Region == region)
   {
@@ -377,7 +391,7 @@ void vtkBakedProp::BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::s
   this->DropTile();
   // Its masks stay from frame to frame.
   constexpr double MostBytes = 16.0 * 1024 * 1024;
-  const double most = MostBytes / baker->GetMaskBytesPerTexel(entry.Plan, entry.Receiver);
+  const double most = MostBytes / GetMaskBytesPerTexel(entry.Plan);
   this->Begun.Region = region;
   this->Begun.Left = entry.Draft;
   this->Begun.Rectangle =

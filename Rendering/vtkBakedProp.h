@@ -145,7 +145,7 @@ private:
     const penumbra::TexelRectangle& rectangle, bool draft);
   bool FinishTiles(
     vtkRadianceBaker* baker, Entry& entry, std::size_t region, double seconds, double until);
-  void BeginTile(vtkRadianceBaker* baker, const Entry& entry, std::size_t region);
+  void BeginTile(const Entry& entry, std::size_t region);
   Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
   Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
 
@@ -160,7 +160,7 @@ private:
     std::size_t Region = 0;
     penumbra::TexelRectangle Rectangle; ///< empty: there is none
     penumbra::TexelRectangle Left;      ///< of the draft, without it
-    vtkRadianceBaker::PartMasks Masks;
+    penumbra::PartMasks Masks;
   };
   Tile Begun;
   int TileSide = 32; ///< of the next tile: about what is resolved in a part of a batch

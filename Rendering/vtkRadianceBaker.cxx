@@ -31,9 +31,6 @@ namespace
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
 
-/// What a clock tells apart.
-constexpr double ShortestSeconds = 1e-4;
-
 std::vector<penumbra::RegisteredProjection> MakeProjections(
   const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
 {
@@ -425,41 +422,9 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
   return true;
 }
 
-std::size_t vtkRadianceBaker::PartMasks::GetBytes() const
-{
-  std::size_t bytes = 0;
-  for (const LightMasks& light : this->Lights)
-  {
-    bytes += light.Masks ? light.Masks->GetBytes() : 0;
-  }
-  return bytes;
-}
-
-double vtkRadianceBaker::PartMasks::GetShare() const
-{
-  double share = 0.0;
-  for (const LightMasks& light : this->Lights)
-  {
-    share += light.Count > 0 ? static_cast<double>(light.Drawn) / light.Count : 0.0;
-  }
-  return this->Lights.empty() ? 0.0 : share / static_cast<double>(this->Lights.size());
-}
-
-void vtkRadianceBaker::PartMasks::Release()
-{
-  for (LightMasks& light : this->Lights)
-  {
-    if (light.Masks)
-    {
-      light.Masks->ReleaseGraphicsResources();
-    }
-  }
-  this->Lights.clear();
-}
-
-vtkRadianceBaker::Progress vtkRadianceBaker::DrawMasksUntil(double until,
+penumbra::DrawProgress vtkRadianceBaker::DrawMasksUntil(double until,
   const penumbra::ReceiverPlan& plan, std::size_t receiver, vtkOpenGLRenderWindow* window,
-  const penumbra::TexelRectangle& rectangle, PartMasks& masks)
+  const penumbra::TexelRectangle& rectangle, penumbra::PartMasks& masks)
 {
   const penumbra::Receiver& r = this->Scene->Receivers[receiver];
   Part part;
@@ -470,8 +435,9 @@ vtkRadianceBaker::Progress vtkRadianceBaker::DrawMasksUntil(double until,
   masks.Lights.resize(plan.Lights.size());
   vtkOpenGLState* state = window->GetState();
   state->Push();
-  Progress progress = Progress::Done;
-  for (std::size_t light = 0; light < plan.Lights.size() && progress == Progress::Done; ++light)
+  penumbra::DrawProgress progress = penumbra::DrawProgress::Done;
+  for (std::size_t light = 0;
+       light < plan.Lights.size() && progress == penumbra::DrawProgress::Done; ++light)
   {
     progress = this->DrawLightUntil(until, job, light, masks.Lights[light]);
   }
@@ -479,8 +445,8 @@ vtkRadianceBaker::Progress vtkRadianceBaker::DrawMasksUntil(double until,
   return progress;
 }
 
-vtkRadianceBaker::Progress vtkRadianceBaker::DrawLightUntil(
-  double until, Job& job, std::size_t light, PartMasks::LightMasks& masks)
+penumbra::DrawProgress vtkRadianceBaker::DrawLightUntil(
+  double until, Job& job, std::size_t light, penumbra::PartMasks::LightMasks& masks)
 {
   const penumbra::PairPlan& pair = job.Plan.Pairs[light];
   const penumbra::TexelRectangle shaded = job.Resolved.Intersection(pair.Shaded);
@@ -488,67 +454,33 @@ vtkRadianceBaker::Progress vtkRadianceBaker::DrawLightUntil(
     pair.Needed == penumbra::Effect::Soft || pair.Needed == penumbra::Effect::Hard;
   if (!hasSamples || shaded.IsEmpty())
   {
-    return Progress::Done;
+    return penumbra::DrawProgress::Done;
   }
   const std::vector<penumbra::LightSample> taken = job.TakeSamples(light, job.CountSamples(light));
   const int count = static_cast<int>(taken.size());
   masks.Count = count;
   if (masks.Masks && masks.Drawn == count)
   {
-    return Progress::Done;
+    return penumbra::DrawProgress::Done;
   }
   const penumbra::TexelRectangle all = vtkRadianceResolver::GetMaskRectangle(
     shaded, pair.Shaded, job.Receiver.Settings.Reconstruction, job.Plan.Texels);
   if (!this->SelectOccluders(job, light, all))
   {
-    return Progress::Failed;
+    return penumbra::DrawProgress::Failed;
   }
   if (!masks.Masks)
   {
     masks.Masks = vtkSmartPointer<vtkVisibilityMask>::New();
     if (!masks.Masks->Allocate(job.Window, all.GetSize(), count, this->Geometry->GetNumberOfSets()))
     {
-      return Progress::Failed;
+      return penumbra::DrawProgress::Failed;
     }
   }
   const std::vector<penumbra::RegisteredProjection> projections =
     MakeProjections(taken, job.Plan.Frame);
-  // A sample takes its time for triangles and texels.
-  const double work = static_cast<double>(this->Occluders.GetTriangles().size()) + all.GetArea();
-  double now = vtkTimerLog::GetUniversalTime();
-  do
-  {
-    const double start = now;
-    const double fitting = 0.5 * this->WorkPerSecond * (until - start) / work;
-    const auto samples =
-      static_cast<int>(std::clamp(fitting, 1.0, static_cast<double>(count - masks.Drawn)));
-    const int end = masks.Drawn + samples;
-    if (!masks.Masks->Draw(this->Geometry, projections, job.Plan.Texels, all.Low, masks.Drawn, end))
-    {
-      return Progress::Failed;
-    }
-    glFinish();
-    masks.Drawn = end;
-    now = vtkTimerLog::GetUniversalTime();
-    this->WorkPerSecond = samples * work / std::max(now - start, ShortestSeconds);
-  } while (masks.Drawn < count && now < until);
-  return masks.Drawn < count ? Progress::OutOfTime : Progress::Done;
-}
-
-double vtkRadianceBaker::GetMaskBytesPerTexel(
-  const penumbra::ReceiverPlan& plan, std::size_t receiver) const
-{
-  const penumbra::Receiver& r = this->Scene->Receivers[receiver];
-  double bytes = 0.0;
-  for (std::size_t light = 0; light < plan.Lights.size(); ++light)
-  {
-    const int layers = r.Settings.GetSampleCount(plan.Lights[light]->GetSolidAngleBound(r.Base)) /
-        vtkVisibilityMask::SamplesPerLayer +
-      1;
-    const int sets = 1 + plan.Pairs[light].Translucent;
-    bytes += static_cast<double>(sizeof(GLuint)) * layers * sets;
-  }
-  return bytes * plan.Supersampling * plan.Supersampling;
+  return this->Drawing.Draw(until, masks, this->Geometry, this->Occluders.GetTriangles().size(),
+    projections, job.Plan.Texels, all.Low, all.GetArea());
 }
 
 bool vtkRadianceBaker::RefineLights(Job& job)

@@ -17,6 +17,7 @@
 
 #include "EffectPlanner.h"
 #include "OccluderSelector.h"
+#include "PartMasks.h"
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "PolygonVisibility.h"
 #include "ShadowScene.h"
@@ -104,24 +105,6 @@ public:
     penumbra::TexelRectangle Stale; ///< of the shares: what has to be drawn anew
   };
 
-  /// Masks that are drawn little by little, of each light of the scene.
-  struct PartMasks
-  {
-    struct LightMasks
-    {
-      vtkSmartPointer<vtkVisibilityMask> Masks; ///< nullptr: none yet, or none are needed
-      int Drawn = 0;                            ///< how many samples are
-      int Count = 0;                            ///< and how many are to be
-    };
-    std::vector<LightMasks> Lights;
-
-    /// About how much of them is drawn, from 0 to 1.
-    double GetShare() const;
-    std::size_t GetBytes() const;
-    /// The window must be current.
-    void Release();
-  };
-
   /// How much of a receiver is baked, and how.
   struct Part
   {
@@ -134,7 +117,7 @@ public:
     /// What masks may take together with what is kept: bands of them get lower for it.
     std::size_t MaskAndKeptBytes = 0;
     /// Those of DrawMasksUntil(), when it is done; nullptr: they are drawn as they are needed.
-    const PartMasks* Masks = nullptr;
+    const penumbra::PartMasks* Masks = nullptr;
   };
 
   ///@{
@@ -150,25 +133,14 @@ public:
     const Part& part);
   ///@}
 
-  enum class Progress
-  {
-    Done,
-    OutOfTime,
-    Failed ///< after vtkErrorMacro
-  };
-
   /**
    * Draw masks of a part, some samples at a time, until it is late: heavy occluders may take longer
    * than a frame should. `until` is in vtkTimerLog::GetUniversalTime()'s seconds. What BakePart()
    * makes of them is the same, to the bit.
    */
-  Progress DrawMasksUntil(double until, const penumbra::ReceiverPlan& plan, std::size_t receiver,
-    vtkOpenGLRenderWindow* window, const penumbra::TexelRectangle& rectangle, PartMasks& masks);
-
-  /**
-   * The bytes that all masks of a receiver take for each texel, were they drawn at once.
-   */
-  double GetMaskBytesPerTexel(const penumbra::ReceiverPlan& plan, std::size_t receiver) const;
+  penumbra::DrawProgress DrawMasksUntil(double until, const penumbra::ReceiverPlan& plan,
+    std::size_t receiver, vtkOpenGLRenderWindow* window, const penumbra::TexelRectangle& rectangle,
+    penumbra::PartMasks& masks);
 
   /**
    * Free what bakes share. The window must be current.
@@ -194,7 +166,8 @@ private:
   bool SelectOccluders(
     const Job& job, std::size_t light, const penumbra::TexelRectangle& rectangle);
   bool SetTransmittances(const Job& job, std::size_t light);
-  Progress DrawLightUntil(double until, Job& job, std::size_t light, PartMasks::LightMasks& masks);
+  penumbra::DrawProgress DrawLightUntil(
+    double until, Job& job, std::size_t light, penumbra::PartMasks::LightMasks& masks);
   bool UseMasks(Job& job, std::size_t light, const std::vector<penumbra::LightSample>& samples,
     const penumbra::TexelRectangle& shaded);
   /// ErrorTolerance: more samples for the lights, until they have enough of them.
@@ -216,9 +189,7 @@ private:
   vtkNew<vtkVisibilityMask> Masks;
   vtkNew<vtkRadianceResolver> Resolver;
   std::optional<penumbra::PolygonVisibility> Exact; ///< of the light that is resolved
-  /// Triangles and texels, of as many samples, that DrawMasksUntil() drew; at first, as many as any
-  /// machine draws.
-  double WorkPerSecond = 1e6;
+  penumbra::TimedDrawing Drawing;                   ///< of DrawMasksUntil()
 };
 
 #endif

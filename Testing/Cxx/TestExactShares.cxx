@@ -31,19 +31,9 @@ TestScene MakeBoxScene()
   return scene;
 }
 
-std::size_t CountExactTexels(const TestBake& bake)
-{
-  std::size_t count = 0;
-  for (const vtkRadianceBaker::PairReport& pair : bake.Reports.front().Pairs)
-  {
-    count += pair.ExactTexels;
-  }
-  return count;
-}
-
 std::size_t CountExactTexels(const TestScene& scene)
 {
-  return CountExactTexels(BakeReceiver(scene.MakeScene()));
+  return ::CountExactTexels(BakeReceiver(scene.MakeScene()));
 }
 
 } // namespace
@@ -104,7 +94,7 @@ TEST(ExactShares, AreExactInRandomScenes)
     missed += deviation > 1e-5 ? 1 : 0;
   }
   EXPECT_GE(compared, 10);
-  EXPECT_LE(missed, compared / 20);
+  EXPECT_LE(missed, 1);
   std::cout << compared << " of " << Scenes << " scenes have exact shares alone\n";
 }
 
@@ -211,7 +201,7 @@ TEST(ExactShares, FollowSamplesWhereTexelsTouchOccluders)
     largest = std::max(largest, std::abs(a.r - b.r));
     peak = std::max(peak, b.r);
   }
-  EXPECT_LE(largest, 0.02f * peak);
+  EXPECT_LE(largest, 0.02f * peak); // 1024 samples miss 1e-2 at an edge, of which a corner has two
 }
 
 // Lights that arrive nowhere have none, whatever others have.

@@ -34,20 +34,6 @@ Texels Bake(const FuzzedScene& scene)
   return BakeReceiver(scene.Make()).Texels;
 }
 
-/// How many texels got exact shares of some light.
-std::size_t CountExactTexels(const TestBake& bake)
-{
-  std::size_t count = 0;
-  for (const vtkRadianceBaker::Report& report : bake.Reports)
-  {
-    for (const vtkRadianceBaker::PairReport& pair : report.Pairs)
-    {
-      count += pair.ExactTexels;
-    }
-  }
-  return count;
-}
-
 FuzzedScene WithoutOccluders(FuzzedScene scene)
 {
   scene.Occluders.clear();

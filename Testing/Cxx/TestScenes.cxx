@@ -131,6 +131,19 @@ TestBake BakeReceiver(const penumbra::ShadowScene& scene, std::size_t receiver)
   return result;
 }
 
+std::size_t CountExactTexels(const TestBake& bake)
+{
+  std::size_t count = 0;
+  for (const vtkRadianceBaker::Report& report : bake.Reports)
+  {
+    for (const vtkRadianceBaker::PairReport& pair : report.Pairs)
+    {
+      count += pair.ExactTexels;
+    }
+  }
+  return count;
+}
+
 TestError CompareWithOracle(const TestScene& scene)
 {
   const TestBake bake = BakeReceiver(scene.MakeScene());

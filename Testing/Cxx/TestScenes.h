@@ -56,6 +56,9 @@ struct TestBake
 /// Bakes one receiver of a scene.
 TestBake BakeReceiver(const penumbra::ShadowScene& scene, std::size_t receiver = 0);
 
+/// How many texels got exact shares, light by light.
+std::size_t CountExactTexels(const TestBake& bake);
+
 /// How far baked texels are from the oracle, as shares of the peak of the oracle's values.
 struct TestError
 {
