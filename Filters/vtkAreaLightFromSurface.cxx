@@ -3,9 +3,12 @@
 #include "vtkAreaLightFromSurface.h"
 
 #include "PolyDataStructure.h"
+#include "PolygonCells.h"
 #include "ShadowSettings.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -13,7 +16,6 @@
 #include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkShadowSceneBuilder.h"
-#include "vtkTriangleFilter.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -24,29 +26,17 @@ vtkStandardNewMacro(vtkAreaLightFromSurface);
 namespace
 {
 
-/// The input's polygons with their cell data, and its strips as triangles.
+/// The input's polygons, and its strips as triangles, with their cell data.
 vtkSmartPointer<vtkPolyData> MakePolygons(vtkPolyData* input)
 {
-  vtkNew<vtkPolyData> surfaces;
-  surfaces->ShallowCopy(input);
-  if (input->GetNumberOfStrips() > 0)
-  {
-    vtkNew<vtkTriangleFilter> triangulate;
-    triangulate->SetInputData(input);
-    triangulate->PassVertsOff();
-    triangulate->PassLinesOff();
-    triangulate->Update();
-    surfaces->ShallowCopy(triangulate->GetOutput());
-  }
-  // Cell data come in the order vertices, lines, polygons.
-  const vtkIdType first = surfaces->GetNumberOfVerts() + surfaces->GetNumberOfLines();
   auto polygons = vtkSmartPointer<vtkPolyData>::New();
-  polygons->SetPoints(surfaces->GetPoints());
-  polygons->SetPolys(surfaces->GetPolys());
-  polygons->GetCellData()->CopyAllocate(surfaces->GetCellData(), surfaces->GetNumberOfPolys());
-  for (vtkIdType i = 0; i < surfaces->GetNumberOfPolys(); ++i)
+  vtkNew<vtkIdList> origins;
+  polygons->SetPoints(input->GetPoints());
+  polygons->SetPolys(penumbra::JoinStrips(input, origins));
+  polygons->GetCellData()->CopyAllocate(input->GetCellData(), origins->GetNumberOfIds());
+  for (vtkIdType i = 0; i < origins->GetNumberOfIds(); ++i)
   {
-    polygons->GetCellData()->CopyData(surfaces->GetCellData(), first + i, i);
+    polygons->GetCellData()->CopyData(input->GetCellData(), origins->GetId(i), i);
   }
   return polygons;
 }

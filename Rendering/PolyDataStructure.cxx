@@ -2,31 +2,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PolyDataStructure.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace penumbra
 {
 namespace
 {
 
-/// The place in the connectivity of the first id that is not in [0, points); -1 if there is none.
-template <typename Array>
-vtkIdType FindBadId(Array* connectivity, vtkIdType points)
+/// The place of the first id that is not in [0, points); -1 if there is none.
+template <typename Get>
+vtkIdType FindBadId(vtkIdType ids, vtkIdType points, Get&& get)
 {
-  const auto* begin = connectivity->GetPointer(0);
-  const auto* end = begin + connectivity->GetNumberOfValues();
-  const auto* bad =
-    std::find_if(begin, end, [points](vtkIdType id) { return id < 0 || id >= points; });
-  return bad == end ? -1 : static_cast<vtkIdType>(bad - begin);
+  for (vtkIdType i = 0; i < ids; ++i)
+  {
+    const auto id = static_cast<vtkIdType>(get(i));
+    if (id < 0 || id >= points)
+    {
+      return i;
+    }
+  }
+  return -1;
+}
+
+/// The same, of ids in whatever array a vtkCellArray keeps them: newer releases of VTK have more
+/// kinds of storage than 32 and 64 bits.
+vtkIdType FindBadId(vtkDataArray* ids, vtkIdType points)
+{
+  const vtkIdType count = ids->GetNumberOfValues();
+  if (auto* ids64 = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  {
+    return FindBadId(count, points, [ids64](vtkIdType i) { return ids64->GetValue(i); });
+  }
+  if (auto* ids32 = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+  {
+    return FindBadId(count, points, [ids32](vtkIdType i) { return ids32->GetValue(i); });
+  }
+  return FindBadId(count, points, [ids](vtkIdType i) { return ids->GetComponent(i, 0); });
 }
 
 std::string DescribeBadId(vtkCellArray* cells, vtkIdType place, vtkIdType points, const char* kind)
 {
   vtkIdType cell = 0;
-  while (cells->GetOffset(cell + 1) <= place)
+  for (vtkIdType end = cells->GetCellSize(0); end <= place; end += cells->GetCellSize(cell))
   {
     ++cell;
   }
@@ -44,9 +66,7 @@ std::string FindCellProblem(vtkCellArray* cells, vtkIdType points, const char* k
       " begins is not in order; allowed: offsets that begin with 0, never decrease, and end with "
       "the number of ids";
   }
-  const vtkIdType bad = cells->IsStorage64Bit()
-    ? FindBadId(cells->GetConnectivityArray64(), points)
-    : FindBadId(cells->GetConnectivityArray32(), points);
+  const vtkIdType bad = FindBadId(cells->GetConnectivityArray(), points);
   return bad < 0 ? "" : DescribeBadId(cells, bad, points, kind);
 }
 
@@ -70,10 +90,10 @@ std::string FindShortStrip(vtkCellArray* strips)
 std::string FindStructureProblem(vtkPolyData* data)
 {
   const vtkIdType points = data->GetNumberOfPoints();
+  const std::pair<vtkCellArray*, const char*> kinds[] = { { data->GetVerts(), "vertex" },
+    { data->GetLines(), "line" }, { data->GetPolys(), "polygon" }, { data->GetStrips(), "strip" } };
   std::string problem;
-  for (const auto& [cells, kind] :
-    { std::make_pair(data->GetVerts(), "vertex"), std::make_pair(data->GetLines(), "line"),
-      std::make_pair(data->GetPolys(), "polygon"), std::make_pair(data->GetStrips(), "strip") })
+  for (const auto& [cells, kind] : kinds)
   {
     if (problem.empty())
     {
@@ -81,6 +101,13 @@ std::string FindStructureProblem(vtkPolyData* data)
     }
   }
   return problem.empty() ? FindShortStrip(data->GetStrips()) : problem;
+}
+
+std::string FindStructureProblem(vtkUnstructuredGrid* grid)
+{
+  // Without cells, there is no array of them.
+  return grid->GetCells() ? FindCellProblem(grid->GetCells(), grid->GetNumberOfPoints(), "cell")
+                          : "";
 }
 
 } // namespace penumbra

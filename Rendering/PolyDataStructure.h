@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Whether polygonal data are what VTK takes them for.
+ * Whether polygonal data, and unstructured grids, are what VTK takes them for.
  */
 #ifndef PolyDataStructure_h
 #define PolyDataStructure_h
@@ -12,6 +12,7 @@
 #include <string>
 
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace penumbra
 {
@@ -25,6 +26,12 @@ namespace penumbra
  * before they see the data.
  */
 PENUMBRARENDERING_EXPORT std::string FindStructureProblem(vtkPolyData* data);
+
+/**
+ * The same of a grid: offsets of cells that are out of order, cells that name points that it does
+ * not have.
+ */
+PENUMBRARENDERING_EXPORT std::string FindStructureProblem(vtkUnstructuredGrid* grid);
 
 } // namespace penumbra
 

@@ -5,6 +5,7 @@
 #include "Coordinates.h"
 #include "PlanarRegions.h"
 #include "PolyDataStructure.h"
+#include "PolygonCells.h"
 #include "ProxyPlane.h"
 #include "ProxyReceiver.h"
 #include "SurfaceLight.h"
@@ -23,9 +24,9 @@
 #include "vtkSMPTools.h"
 #include "vtkShadowFieldData.h"
 #include "vtkSmartPointer.h"
-#include "vtkTriangleFilter.h"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <numeric>
@@ -151,44 +152,24 @@ vtkSmartPointer<vtkPolyData> WithoutStrips(vtkPolyData* data)
 {
   auto polygons = vtkSmartPointer<vtkPolyData>::New();
   polygons->SetPoints(data->GetPoints());
-  if (data->GetNumberOfStrips() == 0)
-  {
-    polygons->SetPolys(data->GetPolys());
-    return polygons;
-  }
-  // vtkTriangleFilter leaves the order of polygons as it is, strips after them.
-  vtkNew<vtkPolyData> surfaces;
-  surfaces->SetPoints(data->GetPoints());
-  surfaces->SetPolys(data->GetPolys());
-  surfaces->SetStrips(data->GetStrips());
-  vtkNew<vtkTriangleFilter> triangulate;
-  triangulate->SetInputData(surfaces);
-  triangulate->Update();
-  polygons->ShallowCopy(triangulate->GetOutput());
+  polygons->SetPolys(penumbra::JoinStrips(data));
   return polygons;
 }
 
 /// Fills the surface's triangles, and their regions if the data have RegionArray.
 void Triangulate(vtkPolyData* polygons, penumbra::Surface& surface)
 {
-  vtkNew<vtkTriangleFilter> triangulate;
-  triangulate->SetInputData(polygons);
-  triangulate->PassVertsOff();
-  triangulate->PassLinesOff();
-  triangulate->Update();
-  vtkPolyData* triangles = triangulate->GetOutput();
-  auto* regions = vtkIntArray::SafeDownCast(triangles->GetCellData()->GetArray(RegionArray));
-  vtkNew<vtkIdList> cell;
-  for (vtkIdType i = 0; i < triangles->GetPolys()->GetNumberOfCells(); ++i)
-  {
-    triangles->GetPolys()->GetCellAtId(i, cell);
-    surface.Triangles.push_back({ static_cast<std::uint32_t>(cell->GetId(0)),
-      static_cast<std::uint32_t>(cell->GetId(1)), static_cast<std::uint32_t>(cell->GetId(2)) });
-    if (regions)
+  auto* regions = vtkIntArray::SafeDownCast(polygons->GetCellData()->GetArray(RegionArray));
+  penumbra::VisitTriangles(polygons->GetPolys(), polygons->GetPoints(),
+    [&](vtkIdType polygon, const std::array<vtkIdType, 3>& corners)
     {
-      surface.Regions.push_back(regions->GetValue(i));
-    }
-  }
+      surface.Triangles.push_back({ static_cast<std::uint32_t>(corners[0]),
+        static_cast<std::uint32_t>(corners[1]), static_cast<std::uint32_t>(corners[2]) });
+      if (regions)
+      {
+        surface.Regions.push_back(regions->GetValue(polygon));
+      }
+    });
 }
 
 /// Drops polygons with a point out of range; the answer is how many there were. They go

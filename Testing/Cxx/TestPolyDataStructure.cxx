@@ -5,11 +5,14 @@
 
 #include "PolyDataStructure.h"
 #include "vtkCellArray.h"
+#include "vtkCellType.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 
 #include <gtest/gtest.h>
 
@@ -115,3 +118,32 @@ TYPED_TEST(PolyDataStructure, ShortStrips)
   data->SetStrips(MakeCells<TypeParam>({ 0, 3, 5 }, { 0, 1, 2, 3, 2 }));
   ExpectProblem(data, "strip 1 has 2 points");
 }
+
+TYPED_TEST(PolyDataStructure, Grids)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  EXPECT_EQ(penumbra::FindStructureProblem(grid), "");
+  grid->SetPoints(MakeData(4)->GetPoints());
+  grid->SetCells(VTK_TRIANGLE, MakeCells<TypeParam>({ 0, 3, 6 }, { 0, 1, 2, 3, 2, 1 }));
+  EXPECT_EQ(penumbra::FindStructureProblem(grid), "");
+  grid->SetCells(VTK_TRIANGLE, MakeCells<TypeParam>({ 0, 3, 6 }, { 0, 1, 2, 3, 4, 1 }));
+  EXPECT_EQ(penumbra::FindStructureProblem(grid), "cell 1 names point 4; allowed: 0 to 3");
+}
+
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+// What newer releases keep cells of one size in.
+TEST(PolyDataStructureOfFixedSize, NamesWhatIsWrong)
+{
+  for (const bool is64Bit : { false, true })
+  {
+    vtkNew<vtkCellArray> cells;
+    is64Bit ? cells->UseFixedSize64BitStorage(3) : cells->UseFixedSize32BitStorage(3);
+    cells->InsertNextCell({ 0, 1, 2 });
+    const auto data = MakeData(4);
+    data->SetPolys(cells);
+    EXPECT_EQ(penumbra::FindStructureProblem(data), "");
+    cells->InsertNextCell({ 0, 4, 2 });
+    EXPECT_EQ(penumbra::FindStructureProblem(data), "polygon 1 names point 4; allowed: 0 to 3");
+  }
+}
+#endif
