@@ -59,8 +59,9 @@ public:
 
   ///@{
   /**
-   * The size of texels in world units; 0 makes 512 texels along the longest edge. Texels grow, with
-   * a warning, where a texture would pass 16 384 texels a side or 256 MiB. Default is 0.
+   * The size of texels in world units; 0 makes 512 texels along the longest edge, which hold the
+   * mean of finer ones around shadows that are small against them. Texels grow, with a warning,
+   * where a texture would pass 16 384 texels a side or 256 MiB. Default is 0.
    */
   vtkSetMacro(TexelSize, double);
   vtkGetMacro(TexelSize, double);

@@ -314,6 +314,41 @@ void PlanOccluded(const ReceiverPlan& plan, const LightShape& seen, const Shadow
   }
 }
 
+/// The shadows of connected parts that a receiver's texels are too large for, and the others.
+struct ShadowParts
+{
+  std::vector<PartShadow> Small;
+  std::vector<ShadowBounds> Large;
+};
+
+/// Has the small ones among a pair's shadows left to windows.
+void TakeSmallParts(
+  const ReceiverPlan& plan, const OccluderSelector& occluders, PairPlan& pair, ShadowParts& parts)
+{
+  if (pair.Needed != Effect::Hard && pair.Needed != Effect::Soft)
+  {
+    return;
+  }
+  const std::size_t before = parts.Small.size();
+  ShadowBounds large;
+  for (const PartShadow& part : occluders.GetParts())
+  {
+    if (NeedsWindow(part, plan.Frame, plan.Texels))
+    {
+      parts.Small.push_back(part);
+    }
+    else
+    {
+      parts.Large.push_back(part.Bounds);
+      large.Add(part.Bounds);
+    }
+  }
+  if (parts.Small.size() > before)
+  {
+    pair.Shaded = large.GetTexels(plan.Texels);
+  }
+}
+
 /// All samples on all texels, from all triangles.
 void PlanEverything(const ReceiverPlan& plan, const LightShape& seen, const ShadowScene& scene,
   const ReceiverSettings& settings, OccluderSelector& occluders, PairPlan& pair)
@@ -450,6 +485,20 @@ bool IsWhollyBlocked(
   return open.empty();
 }
 
+ReceiverPlan PlanWindow(const ShadowScene& scene, const Receiver& window,
+  const ReceiverPlan& parent, OccluderSelector& occluders)
+{
+  ReceiverPlan plan = PlanReceiver(scene, window, occluders);
+  for (std::size_t i = 0; i < plan.Pairs.size(); ++i)
+  {
+    if (parent.Pairs[i].Needed == Effect::None)
+    {
+      plan.Pairs[i] = parent.Pairs[i];
+    }
+  }
+  return plan;
+}
+
 ReceiverPlan PlanReceiver(
   const ShadowScene& scene, const Receiver& receiver, OccluderSelector& occluders)
 {
@@ -459,10 +508,15 @@ ReceiverPlan PlanReceiver(
   plan.Texels = receiver.Texels * plan.Supersampling;
   plan.Lights = ClipLights(scene.Lights, plan.Frame);
   occluders.SetReceiver(receiver, plan.Frame);
+  occluders.SetFindsParts(receiver.IsAutomatic && receiver.Settings.Planner);
+  ShadowParts parts;
   for (const Light& light : plan.Lights)
   {
     plan.Pairs.push_back(PlanPair(plan, *light, scene, receiver, occluders));
+    TakeSmallParts(plan, occluders, plan.Pairs.back(), parts);
   }
+  occluders.SetFindsParts(false);
+  plan.Fine = PlanWindows(parts.Small, parts.Large, plan.Frame, plan.Texels);
   if (receiver.Settings.Planner && receiver.Settings.PlannerTolerance > 0.0 &&
     plan.Lights.size() > 1)
   {

@@ -7,6 +7,7 @@
 #ifndef EffectPlanner_h
 #define EffectPlanner_h
 
+#include "FineWindows.h"
 #include "LightShape.h"
 #include "OccluderSelector.h"
 #include "PenumbraRenderingModule.h" // for the export macro
@@ -90,7 +91,17 @@ struct ReceiverPlan
   int Supersampling = 1;
   std::vector<Light> Lights;   ///< the scene's, in its order, clipped to the receiver's front
   std::vector<PairPlan> Pairs; ///< of each light
+  /// Where finer texels are baked, of which the receiver's are the mean: of all lights, what texels
+  /// are too large for (Receiver::IsAutomatic). What Shaded says is without it.
+  WindowPlan Fine;
 };
+
+/**
+ * Plans a window of a receiver that has been planned: what is too faint there is so here.
+ * `occluders` is given the window, as `window` is by FineWindow::MakeReceiver().
+ */
+PENUMBRARENDERING_EXPORT ReceiverPlan PlanWindow(const ShadowScene& scene, const Receiver& window,
+  const ReceiverPlan& parent, OccluderSelector& occluders);
 
 /**
  * Plans a receiver. `occluders` has taken up the scene; it is given this receiver.

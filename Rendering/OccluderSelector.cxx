@@ -3,6 +3,8 @@
 #include "OccluderSelector.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -175,6 +177,7 @@ void OccluderSelector::Run(const Search& search)
   this->Selected.clear();
   this->Translucent.clear();
   this->Casters.clear();
+  this->PartShadows.clear();
   ++this->Selections;
   this->Surfaces.Visit(search.Planes,
     [&](const ClusterTree::Items& surfaces)
@@ -211,6 +214,8 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
   Caster caster;
   caster.Surface = index;
   caster.First = selected.size();
+  this->PartPlaces.clear();
+  const std::size_t firstPart = this->PartShadows.size();
   shared.GetClusters().Visit(search.Planes,
     [&](const ClusterTree::Items& triangles)
     {
@@ -227,10 +232,22 @@ void OccluderSelector::SelectFrom(std::size_t index, const Search& search)
           this->GetPlace(part, surface, b), this->GetPlace(part, surface, c) };
         if (this->MayBlock(placed, part, search))
         {
-          this->AddTriangle(placed, part, search, selected, caster);
+          const std::uint32_t hanging = this->FindsParts ? shared.GetParts()[t] : 0;
+          const std::size_t first = selected.size();
+          this->AddTriangle(placed, part, search, selected,
+            this->FindsParts ? this->GetPartShadow(hanging).Bounds : caster.Shadow);
+          if (this->FindsParts)
+          {
+            this->NotePart(hanging, first, search, selected);
+          }
         }
       }
     });
+  caster.Triangles = selected.size() - caster.First;
+  for (std::size_t i = firstPart; i < this->PartShadows.size(); ++i)
+  {
+    caster.Shadow.AddPart(this->PartShadows[i].Bounds);
+  }
   if (caster.Triangles > 0)
   {
     this->Casters.push_back(caster);
@@ -248,17 +265,16 @@ bool OccluderSelector::MayBlock(
 }
 
 void OccluderSelector::AddTriangle(const Triangle& triangle, const Part& part, const Search& search,
-  std::vector<Triangle>& selected, Caster& caster)
+  std::vector<Triangle>& selected, ShadowBounds& shadow)
 {
   const glm::dvec3 a = this->Points[triangle[0]], b = this->Points[triangle[1]],
                    c = this->Points[triangle[2]];
   if (!BlockingRegion::IsFar(a) && !BlockingRegion::IsFar(b) && !BlockingRegion::IsFar(c))
   {
     selected.push_back(triangle);
-    ++caster.Triangles;
     for (const std::uint32_t place : triangle)
     {
-      this->NotePoint(place, search, caster);
+      this->NotePoint(place, search, shadow);
     }
     return;
   }
@@ -266,22 +282,52 @@ void OccluderSelector::AddTriangle(const Triangle& triangle, const Part& part, c
   const auto first = static_cast<std::uint32_t>(this->Points.size());
   for (std::uint32_t i = 0; i < polygon.size(); ++i)
   {
-    this->NotePoint(this->AddPoint(polygon[i], part), search, caster);
+    this->NotePoint(this->AddPoint(polygon[i], part), search, shadow);
     if (i > 0 && i + 1 < polygon.size())
     {
       selected.push_back({ first, first + i, first + i + 1 });
-      ++caster.Triangles;
     }
   }
 }
 
-void OccluderSelector::NotePoint(std::uint32_t place, const Search& search, Caster& caster)
+void OccluderSelector::NotePoint(std::uint32_t place, const Search& search, ShadowBounds& shadow)
 {
   this->NotedBy.resize(this->Points.size(), 0);
   if (this->NotedBy[place] != this->Selections)
   {
     this->NotedBy[place] = this->Selections;
-    search.Projector.Add(this->Points[place], caster.Shadow);
+    search.Projector.Add(this->Points[place], shadow);
+  }
+}
+
+PartShadow& OccluderSelector::GetPartShadow(std::uint32_t part)
+{
+  const auto [place, isNew] = this->PartPlaces.try_emplace(part, this->PartShadows.size());
+  if (isNew)
+  {
+    this->PartShadows.emplace_back();
+  }
+  return this->PartShadows[place->second];
+}
+
+void OccluderSelector::NotePart(std::uint32_t part, std::size_t first, const Search& search,
+  const std::vector<Triangle>& selected)
+{
+  PartShadow& shadow = this->GetPartShadow(part);
+  for (std::size_t i = first; i < selected.size(); ++i)
+  {
+    std::array<glm::dvec2, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      const glm::dvec3& point = this->Points[selected[i][c]];
+      corners[c] = search.Projector.ProjectFromCentre(point);
+      shadow.Low = glm::min(shadow.Low, corners[c]);
+      shadow.High = glm::max(shadow.High, corners[c]);
+      shadow.Lowest = std::min(shadow.Lowest, point.z);
+      shadow.Highest = std::max(shadow.Highest, point.z);
+    }
+    const glm::dvec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
+    shadow.Area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
   }
 }
 

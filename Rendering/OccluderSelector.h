@@ -12,6 +12,7 @@
 #include "ShadowBounds.h"
 #include "ShadowScene.h"
 
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -26,6 +27,21 @@ struct Caster
   std::size_t First = 0;     ///< of these, in GetTriangles() or GetTranslucent()
   double Rounding = 0.0;     ///< how far their points may be off, in units of the receiver's size
   ShadowBounds Shadow;
+};
+
+/// The shadow of a connected part of a surface.
+struct PartShadow
+{
+  ShadowBounds Bounds;
+  ///@{
+  /// From the light's centre alone, in u and v: where it is, and the area of its triangles'
+  /// shadows, added up.
+  glm::dvec2 Low{ std::numeric_limits<double>::infinity() };
+  glm::dvec2 High{ -std::numeric_limits<double>::infinity() };
+  double Area = 0.0;
+  ///@}
+  double Lowest = std::numeric_limits<double>::infinity(); ///< height of its points that may block
+  double Highest = 0.0;
 };
 
 /**
@@ -54,6 +70,12 @@ public:
    * part of the receiver in `range`: (u, v) from its low to its high corner, some texels wide.
    */
   void Select(const LightShape& seen, const glm::dvec4& range = { 0.0, 0.0, 1.0, 1.0 });
+
+  ///@{
+  /// Whether Select() also finds the shadow of each connected part. Default is false.
+  void SetFindsParts(bool finds) { this->FindsParts = finds; }
+  const std::vector<PartShadow>& GetParts() const { return this->PartShadows; }
+  ///@}
 
   /// Select the triangles of the whole scene, wherever they are: to check Select() by.
   void SelectAll(const LightShape& seen);
@@ -113,8 +135,11 @@ private:
   void SelectFrom(std::size_t surface, const Search& search);
   bool MayBlock(const Triangle& triangle, const Part& part, const Search& search) const;
   void AddTriangle(const Triangle& triangle, const Part& part, const Search& search,
-    std::vector<Triangle>& selected, Caster& caster);
-  void NotePoint(std::uint32_t place, const Search& search, Caster& caster);
+    std::vector<Triangle>& selected, ShadowBounds& shadow);
+  void NotePoint(std::uint32_t place, const Search& search, ShadowBounds& shadow);
+  PartShadow& GetPartShadow(std::uint32_t part);
+  void NotePart(std::uint32_t part, std::size_t first, const Search& search,
+    const std::vector<Triangle>& selected);
 
   const ShadowScene* Scene = nullptr;
   ClusterTree Surfaces; ///< the scene's, by their boxes
@@ -128,6 +153,10 @@ private:
   std::vector<Triangle> Selected;
   std::vector<Triangle> Translucent;
   std::vector<Caster> Casters;
+  bool FindsParts = false;
+  std::vector<PartShadow> PartShadows;
+  /// Where the parts of the surface that is looked at are in PartShadows.
+  std::unordered_map<std::uint32_t, std::size_t> PartPlaces;
 };
 
 } // namespace penumbra

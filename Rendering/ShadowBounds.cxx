@@ -46,6 +46,15 @@ void ShadowBounds::Add(const ShadowBounds& other)
   this->IsUnbounded = this->IsUnbounded || other.IsUnbounded;
 }
 
+void ShadowBounds::AddPart(const ShadowBounds& other)
+{
+  this->Add(other);
+  this->LowSlope = glm::min(this->LowSlope, other.LowSlope);
+  this->HighSlope = glm::max(this->HighSlope, other.HighSlope);
+  this->Reach = std::max(this->Reach, other.Reach);
+  this->Penumbra = glm::max(this->Penumbra, this->Reach * (this->HighSlope - this->LowSlope));
+}
+
 TexelRectangle ShadowBounds::GetTexels(const glm::ivec2& texels) const
 {
   const TexelRectangle whole = WholeRectangle(texels);
@@ -123,6 +132,12 @@ void ShadowProjector::Add(const glm::dvec3& point, ShadowBounds& bounds) const
   {
     this->AddPenumbra(point, bounds);
   }
+}
+
+glm::dvec2 ShadowProjector::ProjectFromCentre(const glm::dvec3& point) const
+{
+  const glm::dvec3 p = this->Centre.Project(point);
+  return p.z > SmallestW ? glm::dvec2(p) / p.z : glm::dvec2(0.0);
 }
 
 void ShadowProjector::AddPenumbra(const glm::dvec3& point, ShadowBounds& bounds) const

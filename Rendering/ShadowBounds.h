@@ -33,6 +33,9 @@ struct PENUMBRARENDERING_EXPORT ShadowBounds
   bool IsUnbounded = false;
 
   void Add(const ShadowBounds& other);
+  /// Adds the shadow of another part of the same thing: the penumbra is as if its points had been
+  /// added to this.
+  void AddPart(const ShadowBounds& other);
   /// The texels of a receiver that the shadows may reach.
   TexelRectangle GetTexels(const glm::ivec2& texels) const;
   /// The greatest width of a penumbra, in texels.
@@ -64,6 +67,9 @@ public:
 
   /// Add the shadow of a point (u, v, h) that is a corner of something.
   void Add(const glm::dvec3& point, ShadowBounds& bounds) const;
+
+  /// The shadow (u, v) of a point from the light's centre; 0 if it falls nowhere near.
+  glm::dvec2 ProjectFromCentre(const glm::dvec3& point) const;
 
 private:
   void AddPenumbra(const glm::dvec3& point, ShadowBounds& bounds) const;

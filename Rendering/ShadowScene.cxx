@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace penumbra
 {
@@ -32,6 +33,34 @@ double CountTexels(const Receiver& receiver, const glm::dvec3& edge, double grow
   return std::clamp(std::ceil(length / size), 1.0, MostTexels);
 }
 
+/// Sets that are joined, each known by its smallest member (union-find).
+class Groups
+{
+public:
+  explicit Groups(std::size_t count)
+    : Parents(count)
+  {
+    std::iota(this->Parents.begin(), this->Parents.end(), std::uint32_t{ 0 });
+  }
+  std::uint32_t Find(std::uint32_t i)
+  {
+    while (this->Parents[i] != i)
+    {
+      this->Parents[i] = this->Parents[this->Parents[i]];
+      i = this->Parents[i];
+    }
+    return i;
+  }
+  void Join(std::uint32_t a, std::uint32_t b)
+  {
+    const std::uint32_t first = this->Find(a), second = this->Find(b);
+    this->Parents[std::max(first, second)] = std::min(first, second);
+  }
+
+private:
+  std::vector<std::uint32_t> Parents;
+};
+
 /// What a light sends to the receiver's centre, summed over its components; how much of it is in
 /// front where the centre sees nothing of it.
 glm::dvec2 LightOnSide(const LightShape& light, const ReceiverFrame& frame)
@@ -44,11 +73,68 @@ glm::dvec2 LightOnSide(const LightShape& light, const ReceiverFrame& frame)
 
 } // namespace
 
-SharedSurface::SharedSurface(Surface surface)
+std::vector<std::uint32_t> FindConnectedParts(
+  const std::vector<glm::dvec3>& points, const std::vector<Surface::Triangle>& triangles)
 {
-  ClusterTree clusters(surface.Points, surface.Triangles);
-  this->Shared =
-    std::make_shared<const Indexed>(Indexed{ std::move(surface), std::move(clusters) });
+  Groups groups(points.size());
+  for (const Surface::Triangle& t : triangles)
+  {
+    groups.Join(t[0], t[1]);
+    groups.Join(t[0], t[2]);
+  }
+  const auto isOne = [&]
+  {
+    return std::all_of(triangles.begin(), triangles.end(),
+      [&](const Surface::Triangle& t)
+      { return groups.Find(t[0]) == groups.Find(triangles.front()[0]); });
+  };
+  if (!isOne())
+  {
+    // Normals and file formats divide points: a box of VTK has 24.
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::uint32_t{ 0 });
+    const auto key = [&](std::uint32_t i)
+    { return std::tie(points[i].x, points[i].y, points[i].z); };
+    order.erase(
+      std::remove_if(order.begin(), order.end(),
+        [&](std::uint32_t i) { return std::isnan(points[i].x + points[i].y + points[i].z); }),
+      order.end());
+    std::sort(order.begin(), order.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+    {
+      if (key(order[i - 1]) == key(order[i]))
+      {
+        groups.Join(order[i - 1], order[i]);
+      }
+    }
+  }
+  std::vector<std::uint32_t> parts;
+  parts.reserve(triangles.size());
+  for (const Surface::Triangle& t : triangles)
+  {
+    parts.push_back(groups.Find(t[0]));
+  }
+  return parts;
+}
+
+SharedSurface::Indexed::Indexed(Surface&& surface)
+  : Contents(std::move(surface))
+  , Clusters(Contents.Points, Contents.Triangles)
+{
+}
+
+SharedSurface::SharedSurface(Surface surface)
+  : Shared(std::make_shared<const Indexed>(std::move(surface)))
+{
+}
+
+const std::vector<std::uint32_t>& SharedSurface::GetParts() const
+{
+  const Indexed& shared = *this->Shared;
+  std::call_once(shared.PartsAreFound,
+    [&] { shared.Parts = FindConnectedParts(shared.Contents.Points, shared.Contents.Triangles); });
+  return shared.Parts;
 }
 
 double Receiver::GetBakedTexels() const
@@ -86,6 +172,8 @@ double ShadowScene::ChooseTexels(std::size_t first)
   for (std::size_t i = first; i < this->Receivers.size(); ++i)
   {
     Receiver& receiver = this->Receivers[i];
+    receiver.IsAutomatic =
+      receiver.Settings.TexelSize <= 0.0 && receiver.Settings.Supersampling == 1;
     receiver.Texels = { static_cast<int>(CountTexels(receiver, receiver.Base.EdgeX, growth)),
       static_cast<int>(CountTexels(receiver, receiver.Base.EdgeY, growth)) };
   }

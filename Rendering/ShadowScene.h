@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,13 @@ struct Surface
 };
 
 /**
+ * Finds which triangles hang together, by points that are at the same place: the answer has an
+ * index for each triangle, the same for all of a connected part.
+ */
+PENUMBRARENDERING_EXPORT std::vector<std::uint32_t> FindConnectedParts(
+  const std::vector<glm::dvec3>& points, const std::vector<Surface::Triangle>& triangles);
+
+/**
  * A surface that scenes share for as long as it does not change, with the tree of its triangles.
  */
 class PENUMBRARENDERING_EXPORT SharedSurface
@@ -53,6 +61,9 @@ public:
   const Surface& operator*() const { return this->Shared->Contents; }
   const Surface* operator->() const { return &this->Shared->Contents; }
   const ClusterTree& GetClusters() const { return this->Shared->Clusters; }
+  /// Of each triangle, the connected part that it belongs to (FindConnectedParts); found when it is
+  /// first asked for.
+  const std::vector<std::uint32_t>& GetParts() const;
 
   /// Whether both are the same one, not only alike.
   bool operator==(const SharedSurface& other) const { return this->Shared == other.Shared; }
@@ -61,8 +72,12 @@ public:
 private:
   struct Indexed
   {
+    explicit Indexed(Surface&& surface);
+
     Surface Contents;
     ClusterTree Clusters;
+    mutable std::once_flag PartsAreFound;
+    mutable std::vector<std::uint32_t> Parts;
   };
   std::shared_ptr<const Indexed> Shared;
 };
@@ -79,6 +94,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   ReceiverSettings Settings;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
+  /// ChooseTexels() has chosen the texels without a TexelSize: shadows that these are too large for
+  /// get finer ones of their own (PlanWindows).
+  bool IsAutomatic = false;
   /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
   /// from here, homogeneous, in the world.
   std::optional<glm::dvec4> ProxyCentre;

@@ -95,23 +95,46 @@ penumbra::TexelRectangle Coarsen(
   return penumbra::TexelRectangle{ low, high }.Intersection(penumbra::WholeRectangle(texels));
 }
 
+/// A rectangle with all of the windows that it touches: what a change decides of one, such as how
+/// many samples it takes, may concern all of it.
+penumbra::TexelRectangle AddWindows(
+  const penumbra::TexelRectangle& rectangle, const penumbra::ReceiverPlan& plan)
+{
+  penumbra::TexelRectangle all = rectangle, before;
+  while (all != before)
+  {
+    before = all;
+    for (const penumbra::FineWindow& window : plan.Fine.Windows)
+    {
+      const penumbra::TexelRectangle texels = window.GetTexels();
+      all = all.Intersection(texels).IsEmpty() ? all : all.Union(texels);
+    }
+  }
+  return all;
+}
+
 /// The receiver's texels that a change concerns.
-penumbra::TexelRectangle FindRectangle(
-  const vtkBakedProp::Entry& entry, const penumbra::BakeChange& change)
+penumbra::TexelRectangle FindRectangle(const vtkBakedProp::Entry& entry,
+  const penumbra::ReceiverPlan& before, const penumbra::BakeChange& change)
 {
   const glm::ivec2 size = GetRegionSize(entry);
+  if (entry.Vertices == 0 && entry.Plan.Fine.Windows != before.Fine.Windows)
+  {
+    return penumbra::WholeRectangle(size);
+  }
   if (entry.Vertices > 0 || entry.Settings.Settings.ErrorTolerance > 0.0)
   {
     return change.Resolved.IsEmpty() ? penumbra::TexelRectangle() : penumbra::WholeRectangle(size);
   }
-  return Coarsen(change.Resolved, entry.Plan.Supersampling, size);
+  return AddWindows(Coarsen(change.Resolved, entry.Plan.Supersampling, size), entry.Plan);
 }
 
 /// Whether more samples would change anything.
 bool HasMoreSamples(const vtkBakedProp::Entry& entry)
 {
-  return std::any_of(entry.Plan.Pairs.begin(), entry.Plan.Pairs.end(),
-    [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
+  return !entry.Plan.Fine.Windows.empty() ||
+    std::any_of(entry.Plan.Pairs.begin(), entry.Plan.Pairs.end(),
+      [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
 }
 
 /// A receiver's texels: those that its region owns, and the others as they were baked apart.
@@ -264,7 +287,7 @@ vtkBakedProp::Outcome vtkBakedProp::BakeChanges(
     }
     now.Base = before.Base;
     now.Draft = before.Draft;
-    penumbra::TexelRectangle rectangle = FindRectangle(now, change);
+    penumbra::TexelRectangle rectangle = FindRectangle(now, before.Plan, change);
     rectangle = draft ? rectangle : rectangle.Union(now.Draft);
     if (rectangle.IsEmpty())
     {

@@ -21,6 +21,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <utility>
 
 vtkStandardNewMacro(vtkRadianceBaker);
 
@@ -158,11 +160,18 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakePart(const penumbra::ReceiverPlan
   std::size_t receiver, vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture,
   std::size_t region, const Part& part)
 {
+  return this->BakeRectangle(plan, this->Scene->Receivers[receiver], receiver, window, texture,
+    texture->GetRegions()[region], part);
+}
+
+vtkRadianceBaker::Report vtkRadianceBaker::BakeRectangle(const penumbra::ReceiverPlan& plan,
+  const penumbra::Receiver& receiver, std::size_t index, vtkOpenGLRenderWindow* window,
+  vtkRadianceTexture* texture, const vtkRadianceTexture::Region& region, const Part& part)
+{
   const double start = vtkTimerLog::GetUniversalTime();
-  const penumbra::Receiver& r = this->Scene->Receivers[receiver];
-  Job job{ plan, r, part, window, nullptr, {}, {}, part.KeptBytes,
-    MakeReport(plan, *this->Scene, receiver) };
-  this->Occluders.SetReceiver(r, plan.Frame);
+  Job job{ plan, receiver, part, window, nullptr, {}, {}, part.KeptBytes,
+    MakeReport(plan, *this->Scene, index) };
+  this->Occluders.SetReceiver(receiver, plan.Frame);
   vtkOpenGLState* state = window->GetState();
   state->Push();
   job.Result.IsComplete = this->BakeReceiver(job, texture, region);
@@ -172,9 +181,9 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakePart(const penumbra::ReceiverPlan
   return job.Result;
 }
 
-bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::size_t region)
+bool vtkRadianceBaker::BakeReceiver(
+  Job& job, vtkRadianceTexture* texture, const vtkRadianceTexture::Region& place)
 {
-  const vtkRadianceTexture::Region place = texture->GetRegions()[region];
   const penumbra::TexelRectangle& wanted = job.Wanted.Rectangle;
   const int factor = job.Plan.Supersampling;
   job.Resolved = job.FindResolved();
@@ -185,7 +194,7 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
     texture->Clear(place, wanted);
     job.Target = texture;
     job.Region = place;
-    return this->BakeLights(job);
+    return this->BakeLights(job) && this->BakeWindows(job);
   }
   vtkNew<vtkRadianceTexture> fine;
   bool isDone = false;
@@ -193,11 +202,133 @@ bool vtkRadianceBaker::BakeReceiver(Job& job, vtkRadianceTexture* texture, std::
   {
     job.Target = fine;
     job.Region = { -job.Resolved.Low, job.Plan.Texels };
-    isDone =
-      this->BakeLights(job) && texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
+    isDone = this->BakeLights(job) && this->BakeWindows(job) &&
+      texture->Downsample(fine, job.Resolved.Low, place, wanted, factor);
   }
   fine->ReleaseGraphicsResources();
   return isDone;
+}
+
+bool vtkRadianceBaker::BakeWindows(Job& job)
+{
+  std::vector<std::pair<const penumbra::FineWindow*, penumbra::TexelRectangle>> touched;
+  for (const penumbra::FineWindow& window : job.Plan.Fine.Windows)
+  {
+    const penumbra::TexelRectangle rectangle = window.GetTexels().Intersection(job.Resolved);
+    if (!rectangle.IsEmpty())
+    {
+      touched.emplace_back(&window, rectangle);
+    }
+  }
+  this->WarnOfGrowth(job.Plan.Fine, job.Result.Receiver);
+  // Several may have parts of one texel: first these get what they hold without any.
+  bool isDone = true;
+  for (const auto& [window, rectangle] : touched)
+  {
+    job.Target->Clear(job.Region, rectangle);
+    isDone =
+      isDone && (window->IsWhole || this->BakeWithout(job, rectangle, job.Target, job.Region));
+  }
+  for (const auto& [window, rectangle] : touched)
+  {
+    isDone = isDone && this->BakeWindow(job, *window, rectangle);
+  }
+  return isDone;
+}
+
+void vtkRadianceBaker::WarnOfGrowth(const penumbra::WindowPlan& fine, std::size_t receiver)
+{
+  // Half as many texels across a shadow are still enough to tell its area by.
+  constexpr double MostGrowth = 2.0;
+  std::ostringstream text;
+  if (fine.Growth > MostGrowth)
+  {
+    text << "Receiver " << receiver << " has shadows that are small against its texels. They need "
+         << fine.NeededTexels << " finer ones; allowed: " << penumbra::MostFineTexels
+         << ". Those that are used are " << fine.Growth
+         << " times as large along each edge. Set a TexelSize, or divide the receiver.";
+    if (text.str() != this->GrowthWarning)
+    {
+      vtkWarningMacro(<< text.str());
+    }
+  }
+  this->GrowthWarning = text.str();
+}
+
+bool vtkRadianceBaker::BakeWithout(Job& job, const penumbra::TexelRectangle& rectangle,
+  vtkRadianceTexture* target, const vtkRadianceTexture::Region& region)
+{
+  bool isDone = true;
+  for (const std::size_t light : this->Scene->GetLightOrder())
+  {
+    const penumbra::Effect effect = job.Plan.Pairs[light].Needed;
+    if (!isDone || effect == penumbra::Effect::None)
+    {
+      continue;
+    }
+    isDone = this->Resolver->Begin(job.Window, job.Plan.Frame, *job.Plan.Lights[light],
+      job.Plan.Texels, rectangle, {}, this->GetOptions(job, light));
+    if (isDone)
+    {
+      this->Resolver->ResolveUniform(
+        target, region, rectangle, effect == penumbra::Effect::Umbra ? 0.0f : 1.0f);
+    }
+  }
+  return isDone;
+}
+
+bool vtkRadianceBaker::BakeWindow(
+  Job& job, const penumbra::FineWindow& window, const penumbra::TexelRectangle& rectangle)
+{
+  const bool isFront = glm::dot(job.Plan.Frame.GetNormal(),
+                         glm::cross(job.Receiver.Base.EdgeX, job.Receiver.Base.EdgeY)) > 0.0;
+  const penumbra::Receiver receiver = window.MakeReceiver(
+    job.Receiver, isFront ? penumbra::ReceiverSide::Front : penumbra::ReceiverSide::Back);
+  const penumbra::ReceiverPlan plan =
+    penumbra::PlanWindow(*this->Scene, receiver, job.Plan, this->Occluders);
+  Part part;
+  part.MostSamples = job.Wanted.MostSamples;
+  const penumbra::TexelRectangle fine =
+    penumbra::TexelRectangle{ rectangle.Low * window.Factor, rectangle.High * window.Factor }
+      .Intersection(window.Fine);
+  part.Rectangle = { fine.Low - window.Fine.Low, fine.High - window.Fine.Low };
+  vtkNew<vtkRadianceTexture> texels, without;
+  bool isDone = texels->Allocate(job.Window, { part.Rectangle.GetSize() }) &&
+    without->Allocate(job.Window, { rectangle.GetSize() });
+  if (isDone)
+  {
+    const Report report = this->BakeRectangle(plan, receiver, job.Result.Receiver, job.Window,
+      texels, { -part.Rectangle.Low, receiver.Texels }, part);
+    this->AddReport(job, report);
+    isDone = report.IsComplete &&
+      (window.IsWhole ||
+        this->BakeWithout(job, rectangle, without, { -rectangle.Low, job.Plan.Texels })) &&
+      job.Target->AddMeans(texels, window.IsWhole ? nullptr : without.Get(), window.Factor, fine,
+        job.Region, rectangle);
+  }
+  texels->ReleaseGraphicsResources();
+  without->ReleaseGraphicsResources();
+  return isDone;
+}
+
+void vtkRadianceBaker::AddReport(Job& job, const Report& window) const
+{
+  for (std::size_t i = 0; i < window.Pairs.size(); ++i)
+  {
+    PairReport& pair = job.Result.Pairs[i];
+    const PairReport& added = window.Pairs[i];
+    if (pair.Effect == penumbra::Effect::Hard && added.Effect == penumbra::Effect::Soft)
+    {
+      pair.Effect = added.Effect;
+      pair.Reason = added.Reason;
+    }
+    pair.LightSamples = std::max(pair.LightSamples, added.LightSamples);
+    pair.Texels += added.Texels;
+    pair.Milliseconds += added.Milliseconds;
+    pair.Bytes = std::max(pair.Bytes, added.Bytes);
+    pair.ExactTexels += added.ExactTexels;
+  }
+  job.Result.PeakBytes = std::max(job.Result.PeakBytes, window.PeakBytes);
 }
 
 bool vtkRadianceBaker::BakeLights(Job& job)
@@ -488,8 +619,9 @@ bool vtkRadianceBaker::RefineLights(Job& job)
   const penumbra::ReceiverSettings& settings = job.Receiver.Settings;
   const glm::dvec2 first = FindErrorAndPeak(job.Target->Download(job.Region), settings);
   const double allowed = settings.ErrorTolerance * first.y;
-  const auto soft = std::count_if(job.Plan.Pairs.begin(), job.Plan.Pairs.end(),
-    [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
+  const auto hasSamples = [](const penumbra::PairPlan& pair)
+  { return pair.Needed == penumbra::Effect::Soft && !pair.Shaded.IsEmpty(); };
+  const auto soft = std::count_if(job.Plan.Pairs.begin(), job.Plan.Pairs.end(), hasSamples);
   if (first.x <= allowed || soft == 0)
   {
     return true;
@@ -507,9 +639,8 @@ bool vtkRadianceBaker::RefineLights(Job& job)
   {
     job.Result.Pairs[light].LightSamples = 0;
     isDone = isDone &&
-      (job.Plan.Pairs[light].Needed == penumbra::Effect::Soft
-          ? this->RefineLight(job, light, allowedOfLight, scratch)
-          : this->BakeLight(job, light, 1));
+      (hasSamples(job.Plan.Pairs[light]) ? this->RefineLight(job, light, allowedOfLight, scratch)
+                                         : this->BakeLight(job, light, 1));
   }
   scratch->ReleaseGraphicsResources();
   if (!isDone)

@@ -25,6 +25,7 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkObject.h"
 #include "vtkRadianceResolver.h" // for its Options
+#include "vtkRadianceTexture.h"  // for its Region
 #include "vtkSmartPointer.h"     // for masks
 
 #include <optional>
@@ -156,7 +157,21 @@ private:
   void operator=(const vtkRadianceBaker&) = delete;
 
   struct Job;
-  bool BakeReceiver(Job& job, vtkRadianceTexture* texture, std::size_t region);
+  /// Its masks and texels, for a receiver that may be a window of the scene's.
+  Report BakeRectangle(const penumbra::ReceiverPlan& plan, const penumbra::Receiver& receiver,
+    std::size_t index, vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture,
+    const vtkRadianceTexture::Region& region, const Part& part);
+  bool BakeReceiver(Job& job, vtkRadianceTexture* texture, const vtkRadianceTexture::Region& place);
+  ///@{
+  /// What windows give in place of the receiver's own texels.
+  bool BakeWindows(Job& job);
+  void WarnOfGrowth(const penumbra::WindowPlan& fine, std::size_t receiver);
+  bool BakeWithout(Job& job, const penumbra::TexelRectangle& rectangle, vtkRadianceTexture* target,
+    const vtkRadianceTexture::Region& region);
+  bool BakeWindow(
+    Job& job, const penumbra::FineWindow& window, const penumbra::TexelRectangle& rectangle);
+  void AddReport(Job& job, const Report& window) const;
+  ///@}
   bool BakeLights(Job& job);
   bool BakeLight(Job& job, std::size_t light, int count);
   bool BakeShaded(Job& job, std::size_t light, int count);
@@ -190,6 +205,7 @@ private:
   vtkNew<vtkRadianceResolver> Resolver;
   std::optional<penumbra::PolygonVisibility> Exact; ///< of the light that is resolved
   penumbra::TimedDrawing Drawing;                   ///< of DrawMasksUntil()
+  std::string GrowthWarning;                        ///< the last one: it comes once
 };
 
 #endif

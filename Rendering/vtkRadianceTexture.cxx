@@ -6,11 +6,13 @@
 
 #include "FullScreenTriangle.h"
 #include "OpenGLErrors.h"
+#include "ScopedTexture.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRadianceDownsampleFS.h"
+#include "vtkRadianceMeanFS.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
@@ -168,6 +170,50 @@ bool vtkRadianceTexture::Downsample(vtkRadianceTexture* fine, const glm::ivec2& 
   this->Draw(program, region, rectangle, false);
   fine->Variance->Deactivate();
   fine->Irradiance->Deactivate();
+  return true;
+}
+
+bool vtkRadianceTexture::AddMeans(vtkRadianceTexture* texels, vtkRadianceTexture* without,
+  const glm::ivec2& factor, const penumbra::TexelRectangle& fine, const Region& region,
+  const penumbra::TexelRectangle& rectangle)
+{
+  const penumbra::TexelRectangle rows{ { rectangle.Low.x, fine.Low.y },
+    { rectangle.High.x, fine.High.y } };
+  vtkNew<vtkRadianceTexture> sums;
+  if (!sums->Allocate(this->Window, { rows.GetSize() }))
+  {
+    return false;
+  }
+  vtkShaderProgram* program = penumbra::ReadyFullScreenProgram(this->Window, vtkRadianceMeanFS);
+  if (!program)
+  {
+    vtkErrorMacro("The shader that adds up finer texels did not compile. There is no bake; set a "
+                  "TexelSize, or update the OpenGL driver.");
+    return false;
+  }
+  vtkOpenGLState* state = this->Window->GetState();
+  program->SetUniform2i("factor", &factor.x);
+  program->SetUniform2i("fineLow", &fine.Low.x);
+  program->SetUniform2i("fineHigh", &fine.High.x);
+  program->SetUniform2i("withoutFirst", &rectangle.Low.x);
+  const penumbra::ScopedTexture scopedWithout(state, program, "without", GL_TEXTURE_2D,
+    without ? without->Irradiance->GetHandle() : texels->Irradiance->GetHandle());
+  const auto addUp = [&](int axis, vtkRadianceTexture* source, const glm::ivec2& first,
+                       vtkRadianceTexture* target, const Region& place,
+                       const penumbra::TexelRectangle& drawn)
+  {
+    const penumbra::ScopedTexture radiance(
+      state, program, "radiance", GL_TEXTURE_2D, source->Irradiance->GetHandle());
+    const penumbra::ScopedTexture variance(
+      state, program, "variance", GL_TEXTURE_2D, source->Variance->GetHandle());
+    program->SetUniform2i("sourceFirst", &first.x);
+    program->SetUniformi("axis", axis);
+    program->SetUniformi("hasWithout", axis == 1 && without ? 1 : 0);
+    target->Draw(program, place, drawn, axis == 1);
+  };
+  addUp(0, texels, fine.Low, sums, { -rows.Low, rows.High }, rows);
+  addUp(1, sums, rows.Low, this, region, rectangle);
+  sums->ReleaseGraphicsResources();
   return true;
 }
 

@@ -90,6 +90,16 @@ public:
   bool Downsample(vtkRadianceTexture* fine, const glm::ivec2& fineFirst, const Region& region,
     const penumbra::TexelRectangle& rectangle, int factor);
 
+  /**
+   * Add what a window of finer texels (penumbra::FineWindow) changes in a rectangle of a region.
+   * `texels` has those of the window that are in `fine`, `factor` times as many as the region's
+   * along each axis, and `without` what the rectangle holds without the window; nullptr: this
+   * counts for nothing. False, after vtkErrorMacro, if OpenGL refuses.
+   */
+  bool AddMeans(vtkRadianceTexture* texels, vtkRadianceTexture* without, const glm::ivec2& factor,
+    const penumbra::TexelRectangle& fine, const Region& region,
+    const penumbra::TexelRectangle& rectangle);
+
   ///@{
   /**
    * How many times as long as wide the part of the texture may be that a pixel shows, as floors
