@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowSceneCollector.h"
 
+#include "DrawnSurface.h"
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAssemblyNode.h"
@@ -19,6 +20,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkSkybox.h"
 #include "vtkSoftShadowPass.h"
 #include "vtkVersionMacros.h"
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
@@ -118,7 +120,7 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
       vtkAssemblyNode* node = path->GetLastNode();
       auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
       vtkMapper* mapper = actor ? GetFullMapper(actor) : nullptr;
-      if (mapper && actor->GetVisibility() && !IsMark(actor))
+      if (mapper && actor->GetVisibility() && !IsMark(actor) && !vtkSkybox::SafeDownCast(actor))
       {
         if (vtkDataObject* data = GetMappedData(mapper))
         {
@@ -134,6 +136,11 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
     }
   }
   return isAllAtHand;
+}
+
+penumbra::DrawnActor GetDrawn(const VisitedPart& part)
+{
+  return { part.Actor, GetFullMapper(part.Actor), part.Matrix, part.Data, part.Attributes };
 }
 
 /// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
@@ -185,6 +192,36 @@ penumbra::CasterSettings GetCaster(vtkProp* prop, const VisitedPart& part)
     caster.Transmittance = penumbra::GetTransmittance(property->GetOpacity(), colour);
   }
   return caster;
+}
+
+/// How a part of an actor casts shadows that is drawn otherwise than the actor's data are.
+penumbra::CasterSettings GetCaster(
+  vtkProp* prop, const VisitedPart& visited, const penumbra::DrawnPart& part)
+{
+  penumbra::CasterSettings caster = GetCaster(prop, visited);
+  const glm::dvec3 colour = part.Colour.value_or(glm::dvec3(1.0));
+  caster.Transmittance = penumbra::GetTransmittance(part.Opacity, colour);
+  return caster;
+}
+
+/// Adds all that an actor draws to the builder, lights apart.
+void AddDrawn(vtkShadowSceneBuilder* builder, vtkProp* prop, const VisitedPart& visited,
+  bool mayReceive, const std::string& name)
+{
+  const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+    (mayReceive ? vtkShadowSceneBuilder::Receiver : 0);
+  const penumbra::DrawnActor drawn = GetDrawn(visited);
+  if (!roles || penumbra::IsDrawnAsItIs(drawn))
+  {
+    builder->SetCaster(GetCaster(prop, visited));
+    builder->AddData(visited.Data, visited.Matrix, roles, name, visited.Attributes);
+    return;
+  }
+  for (const penumbra::DrawnPart& part : penumbra::FindDrawnParts(drawn, mayReceive))
+  {
+    builder->SetCaster(GetCaster(prop, visited, part));
+    builder->AddData(part.Data, visited.Matrix, roles, name);
+  }
 }
 
 /// How error messages name an actor.
@@ -240,6 +277,10 @@ void AppendPart(std::vector<std::uint64_t>& signature, const VisitedPart& part, 
     Append(signature, passing[i]);
   }
   AppendData(signature, part.Data, part.Attributes);
+  if (part.IsSurface)
+  {
+    penumbra::AppendDrawnState(signature, GetDrawn(part));
+  }
   for (int i = 0; part.Matrix && i < 16; ++i)
   {
     Append(signature, part.Matrix->GetElement(i / 4, i % 4));
@@ -323,12 +364,9 @@ void vtkShadowSceneCollector::Build(
       }
       if (part.IsNew)
       {
-        const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
-          (MayReceive(prop, visited, onlyDesignated) ? vtkShadowSceneBuilder::Receiver : 0);
         part.Builder->SetLights(lights);
-        part.Builder->SetCaster(GetCaster(prop, visited));
-        part.Builder->AddData(
-          visited.Data, visited.Matrix, roles, Describe(visited.Actor), visited.Attributes);
+        AddDrawn(part.Builder, prop, visited, MayReceive(prop, visited, onlyDesignated),
+          Describe(visited.Actor));
         part.IsNew = false;
       }
     });

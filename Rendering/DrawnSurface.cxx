@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DrawnSurface.h"
+
+#include "DrawnOpacity.h"
+#include "ShadowSettings.h"
+#include "vtkActor.h"
+#include "vtkClipPolyData.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+#include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkShadowFieldData.h"
+
+#include <array>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+namespace penumbra
+{
+namespace
+{
+
+/// How a block is drawn: what is said of it, or else of the block that it is in.
+struct BlockStyle
+{
+  bool IsVisible = true;
+  double Opacity = 1.0;
+  std::optional<glm::dvec3> Colour; ///< instead of the actor's colour, and of scalars
+};
+
+BlockStyle GetStyle(
+  vtkDataObject* block, vtkCompositeDataDisplayAttributes* attributes, BlockStyle style)
+{
+  if (attributes && attributes->HasBlockVisibility(block))
+  {
+    style.IsVisible = attributes->GetBlockVisibility(block);
+  }
+  if (attributes && attributes->HasBlockOpacity(block))
+  {
+    style.Opacity = attributes->GetBlockOpacity(block);
+  }
+  if (attributes && attributes->HasBlockColor(block))
+  {
+    style.Colour.emplace();
+    attributes->GetBlockColor(block, &style.Colour->x);
+  }
+  return style;
+}
+
+/// Calls visit(leaf, style) for the data or each leaf of their tree.
+template <typename Visitor>
+void VisitLeaves(vtkDataObject* data, vtkCompositeDataDisplayAttributes* attributes,
+  const BlockStyle& above, Visitor&& visit)
+{
+  const BlockStyle style = GetStyle(data, attributes, above);
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    vtkSmartPointer<vtkDataObjectTreeIterator> it;
+    it.TakeReference(tree->NewTreeIterator());
+    it->VisitOnlyLeavesOff();
+    it->TraverseSubTreeOff();
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      VisitLeaves(it->GetCurrentDataObject(), attributes, style, visit);
+    }
+  }
+  else if (auto* leaf = vtkDataSet::SafeDownCast(data))
+  {
+    visit(leaf, style);
+  }
+}
+
+template <typename Visitor>
+void VisitLeaves(const DrawnActor& drawn, Visitor&& visit)
+{
+  BlockStyle style;
+  style.Opacity = drawn.Actor->GetProperty()->GetOpacity();
+  VisitLeaves(drawn.Data, drawn.Attributes, style, visit);
+}
+
+/// A clipping plane in the data's coordinates: what is kept has a value of 0 or more.
+using Plane = std::array<double, 4>;
+
+std::vector<Plane> GetClippingPlanes(const DrawnActor& drawn)
+{
+  std::vector<Plane> planes;
+  vtkNew<vtkMatrix4x4> matrix;
+  if (drawn.Matrix)
+  {
+    matrix->DeepCopy(drawn.Matrix);
+  }
+  for (int i = 0; i < drawn.Mapper->GetNumberOfClippingPlanes(); ++i)
+  {
+    drawn.Mapper->GetClippingPlaneInDataCoords(matrix, i, planes.emplace_back().data());
+  }
+  return planes;
+}
+
+vtkSmartPointer<vtkPolyData> Clip(
+  vtkSmartPointer<vtkPolyData> data, const std::vector<Plane>& planes)
+{
+  for (const Plane& plane : planes)
+  {
+    const glm::dvec3 normal(plane[0], plane[1], plane[2]);
+    const glm::dvec3 origin = -plane[3] / glm::dot(normal, normal) * normal;
+    vtkNew<vtkPlane> function;
+    function->SetOrigin(origin.x, origin.y, origin.z);
+    function->SetNormal(normal.x, normal.y, normal.z);
+    vtkNew<vtkClipPolyData> clip;
+    clip->SetInputData(data);
+    clip->SetClipFunction(function);
+    clip->Update();
+    vtkNew<vtkPolyData> kept;
+    kept->ShallowCopy(clip->GetOutput());
+    kept->SetFieldData(data->GetFieldData());
+    data = kept;
+  }
+  return data;
+}
+
+/// What a part is drawn in: nothing certain where scalars or a texture colour it.
+std::optional<glm::dvec3> GetColour(
+  const DrawnActor& drawn, vtkDataSet* leaf, const BlockStyle& style)
+{
+  if (style.Colour || drawn.Actor->GetTexture())
+  {
+    return drawn.Actor->GetTexture() ? std::nullopt : style.Colour;
+  }
+  vtkMapper* mapper = drawn.Mapper;
+  int association = 0;
+  if (mapper->GetScalarVisibility() &&
+    vtkAbstractMapper::GetAbstractScalars(leaf, mapper->GetScalarMode(),
+      mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), association))
+  {
+    return std::nullopt;
+  }
+  glm::dvec3 colour;
+  drawn.Actor->GetProperty()->GetDiffuseColor(&colour.x);
+  return colour;
+}
+
+/// Brings data that are drawn alike together.
+class DrawnParts
+{
+public:
+  void Add(vtkPolyData* data, double opacity, const std::optional<glm::dvec3>& colour)
+  {
+    const glm::dvec3 shown = colour.value_or(glm::dvec3(-1.0));
+    vtkSmartPointer<vtkMultiBlockDataSet>& blocks =
+      this->Blocks[{ opacity, shown.x, shown.y, shown.z }];
+    if (!blocks)
+    {
+      blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+      this->Parts.push_back({ blocks, opacity, colour });
+    }
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), data);
+  }
+
+  std::vector<DrawnPart> Parts;
+
+private:
+  std::map<std::tuple<double, double, double, double>, vtkSmartPointer<vtkMultiBlockDataSet>>
+    Blocks;
+};
+
+void AppendWord(std::vector<std::uint64_t>& words, double value)
+{
+  std::uint64_t word = 0;
+  std::memcpy(&word, &value, sizeof(value));
+  words.push_back(word);
+}
+
+} // namespace
+
+bool IsDrawnAsItIs(const DrawnActor& drawn)
+{
+  bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0;
+  const double opacity = drawn.Actor->GetProperty()->GetOpacity();
+  VisitLeaves(drawn,
+    [&](vtkDataSet* leaf, const BlockStyle& style)
+    {
+      std::vector<std::uint64_t> words; // one word: no cell has an opacity of its own
+      AppendOpacityState(words, drawn.Mapper, leaf);
+      isAsItIs = isAsItIs && vtkPolyData::SafeDownCast(leaf) && style.Opacity == opacity &&
+        !(style.Colour && opacity < 1.0) && words.size() == 1;
+    });
+  return isAsItIs;
+}
+
+std::vector<DrawnPart> FindDrawnParts(const DrawnActor& drawn, bool mayReceive)
+{
+  const std::vector<Plane> planes = GetClippingPlanes(drawn);
+  DrawnParts parts;
+  VisitLeaves(drawn,
+    [&](vtkDataSet* leaf, const BlockStyle& style)
+    {
+      vtkSmartPointer<vtkPolyData> polygons = vtkPolyData::SafeDownCast(leaf);
+      if (!polygons || !style.IsVisible)
+      {
+        return;
+      }
+      const std::optional<glm::dvec3> colour = GetColour(drawn, leaf, style);
+      if (mayReceive && vtkShadowFieldData::ReadReceiver(leaf->GetFieldData()))
+      {
+        parts.Add(Clip(polygons, planes), style.Opacity, colour);
+        return;
+      }
+      if (!style.Colour)
+      {
+        polygons = WithOpacities(drawn.Mapper, polygons);
+      }
+      for (const auto& [opacity, part] : SplitByOpacity(Clip(polygons, planes)))
+      {
+        if (opacity * style.Opacity > 0.0)
+        {
+          parts.Add(part, opacity * style.Opacity, colour);
+        }
+      }
+    });
+  return parts.Parts;
+}
+
+void AppendDrawnState(std::vector<std::uint64_t>& words, const DrawnActor& drawn)
+{
+  for (const Plane& plane : GetClippingPlanes(drawn))
+  {
+    for (const double coefficient : plane)
+    {
+      AppendWord(words, coefficient);
+    }
+  }
+  VisitLeaves(drawn,
+    [&](vtkDataSet* leaf, const BlockStyle& style)
+    {
+      AppendWord(words, style.Opacity);
+      for (int i = 0; style.Colour && style.Opacity < 1.0 && i < 3; ++i)
+      {
+        AppendWord(words, (*style.Colour)[i]);
+      }
+      AppendOpacityState(words, drawn.Mapper, leaf);
+    });
+}
+
+} // namespace penumbra

@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a mapper leaves out of its data, or draws translucent, casts as it is drawn.
+
+#include "PassScene.h"
+
+#include "vtkCellData.h"
+#include "vtkClipPolyData.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCubeSource.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkLookupTable.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkSkybox.h"
+#include "vtkTexture.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVersionMacros.h"
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
+#include "vtkCompositePolyDataMapper2.h"
+using CompositeMapper = vtkCompositePolyDataMapper2;
+#else
+#include "vtkCompositePolyDataMapper.h"
+using CompositeMapper = vtkCompositePolyDataMapper;
+#endif
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace
+{
+
+constexpr int Side = 64;
+
+/// A floor of 4 m and 64 texels a side under a lamp.
+class LampScene : public PassScene
+{
+public:
+  LampScene()
+  {
+    this->Receiver->SetTexelSize(4.0 / Side);
+    this->Receiver->SetLightSamples(32);
+    this->AddReceiver({ -2, -2, 0 }, { 2, -2, 0 }, { -2, 2, 0 }, this->Receiver);
+    this->AddLight(this->Lamp, { -0.3, 0.3, 4 }, { 0.3, 0.3, 4 }, { -0.3, -0.3, 4 });
+  }
+
+  vtkSmartPointer<vtkActor> AddMapper(vtkMapper* mapper)
+  {
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    this->Renderer->AddActor(actor);
+    return actor;
+  }
+
+  /// The red component of the floor's texels.
+  std::vector<float> GetTexels()
+  {
+    this->Render();
+    const vtkSmartPointer<vtkFloatArray> array = this->Pass->GetTexels(0);
+    std::vector<float> red;
+    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+    {
+      red.push_back(array->GetTypedComponent(i, 0));
+    }
+    return red;
+  }
+
+  vtkNew<vtkShadowReceiver> Receiver;
+  vtkNew<vtkAreaLightSource> Lamp;
+};
+
+/// Of the light that an empty floor gets.
+std::vector<float> GetLit()
+{
+  return LampScene().GetTexels();
+}
+
+void ExpectSame(const std::vector<float>& found, const std::vector<float>& right, float tolerance)
+{
+  ASSERT_FALSE(right.empty());
+  ASSERT_EQ(found.size(), right.size());
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < right.size(); ++i)
+  {
+    worst = std::abs(found[i] - right[i]) > std::abs(found[worst] - right[worst]) ? i : worst;
+  }
+  EXPECT_LE(std::abs(found[worst] - right[worst]), tolerance)
+    << "texel (" << worst % Side << ", " << worst / Side << ") is " << found[worst] << ", right is "
+    << right[worst];
+}
+
+vtkSmartPointer<vtkPolyData> MakeBox(double x)
+{
+  vtkNew<vtkCubeSource> box;
+  box->SetBounds(x - 0.4, x + 0.4, -0.5, 0.5, 0.5, 1.0);
+  box->Update();
+  return box->GetOutput();
+}
+
+/// A pane over the floor of two cells, with opacities at its cells or at its points.
+vtkSmartPointer<vtkPolyData> MakePane(const std::vector<double>& values, bool areOfCells)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-1, -1, 1);
+  plane->SetPoint1(1, -1, 1);
+  plane->SetPoint2(-1, 1, 1);
+  plane->SetXResolution(2);
+  plane->Update();
+  vtkSmartPointer<vtkPolyData> data = plane->GetOutput();
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Value");
+  for (const double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  vtkDataSetAttributes* attributes = data->GetPointData();
+  if (areOfCells)
+  {
+    attributes = data->GetCellData();
+  }
+  attributes->SetScalars(array);
+  return data;
+}
+
+/// Maps 0 to 1 onto 256 opacities of 0 to 1.
+vtkSmartPointer<vtkLookupTable> MakeOpacityTable()
+{
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(256);
+  for (int i = 0; i < 256; ++i)
+  {
+    table->SetTableValue(i, 1, 1, 1, i / 255.0);
+  }
+  table->SetRange(0.0, 1.0);
+  return table;
+}
+
+vtkSmartPointer<vtkPolyDataMapper> MakeMapper(vtkPolyData* data)
+{
+  auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(data);
+  return mapper;
+}
+
+std::vector<float> GetTexelsOf(vtkMapper* mapper, double opacity = 1.0)
+{
+  LampScene scene;
+  scene.AddMapper(mapper)->GetProperty()->SetOpacity(opacity);
+  return scene.GetTexels();
+}
+
+/// Two boxes as blocks.
+class BlockScene : public LampScene
+{
+public:
+  BlockScene()
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, this->Left);
+    blocks->SetBlock(1, this->Right);
+    this->Mapper->SetInputDataObject(blocks);
+    this->Mapper->SetCompositeDataDisplayAttributes(this->Attributes);
+    this->AddMapper(this->Mapper);
+  }
+
+  vtkSmartPointer<vtkPolyData> Left = MakeBox(-0.8), Right = MakeBox(0.8);
+  vtkNew<CompositeMapper> Mapper;
+  vtkNew<vtkCompositeDataDisplayAttributes> Attributes;
+};
+
+std::vector<float> GetTexelsOfBoxes(double leftOpacity)
+{
+  LampScene scene;
+  if (leftOpacity > 0.0)
+  {
+    scene.AddMapper(MakeMapper(MakeBox(-0.8)))->GetProperty()->SetOpacity(leftOpacity);
+  }
+  scene.AddMapper(MakeMapper(MakeBox(0.8)));
+  return scene.GetTexels();
+}
+
+// 32 weighted samples are added up in another order: a rounding each, of up to 1.
+constexpr float Rounding = 32 * 1.2e-7f;
+
+} // namespace
+
+// Clipping planes are the world's: the actor is moved and scaled.
+TEST(OccluderMappers, ClippingPlanesCut)
+{
+  const vtkSmartPointer<vtkPolyData> box = MakeBox(0.0);
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(1, 0, 1);
+  plane->SetOrigin(0.25, 0, 0.75);
+  LampScene clipped;
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = MakeMapper(box);
+  mapper->AddClippingPlane(plane);
+  const vtkSmartPointer<vtkActor> actor = clipped.AddMapper(mapper);
+  actor->SetPosition(0.25, 0, 0);
+  actor->SetScale(2, 1, 1);
+
+  vtkNew<vtkPlane> own; // the same in the box's coordinates: x = 0.25 + 2 X
+  own->SetNormal(2, 0, 1);
+  own->SetOrigin(0, 0, 0.75);
+  const auto getRight = [&](double z)
+  {
+    own->SetOrigin(0, 0, z);
+    vtkNew<vtkClipPolyData> clip;
+    clip->SetInputData(box);
+    clip->SetClipFunction(own);
+    clip->Update();
+    LampScene scene;
+    const vtkSmartPointer<vtkActor> part = scene.AddMapper(MakeMapper(clip->GetOutput()));
+    part->SetPosition(0.25, 0, 0);
+    part->SetScale(2, 1, 1);
+    return scene.GetTexels();
+  };
+  ExpectSame(clipped.GetTexels(), getRight(0.75), Rounding);
+  plane->SetOrigin(0.25, 0, 0.9); // a change of the plane alone
+  ExpectSame(clipped.GetTexels(), getRight(0.9), Rounding);
+}
+
+TEST(OccluderMappers, SkyboxesCastNothing)
+{
+  LampScene scene;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  image->GetPointData()->GetScalars()->Fill(200);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  vtkNew<vtkSkybox> sky;
+  sky->SetTexture(texture);
+  sky->SetProjectionToSphere();
+  scene.Renderer->AddActor(sky);
+  ExpectSame(scene.GetTexels(), GetLit(), 0.0f);
+}
+
+TEST(OccluderMappers, BlocksHaveOpacities)
+{
+  BlockScene scene;
+  for (const double opacity : { 0.0, 0.4, 1.0 })
+  {
+    scene.Attributes->SetBlockOpacity(scene.Left, opacity);
+    ExpectSame(scene.GetTexels(), GetTexelsOfBoxes(opacity), Rounding);
+  }
+  scene.Attributes->SetBlockVisibility(scene.Left, false);
+  ExpectSame(scene.GetTexels(), GetTexelsOfBoxes(0.0), Rounding);
+}
+
+TEST(OccluderMappers, CellsHaveOpacities)
+{
+  const vtkSmartPointer<vtkLookupTable> table = MakeOpacityTable();
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = MakeMapper(MakePane({ 0.0, 1.0 }, true));
+  mapper->SetLookupTable(table);
+  LampScene right;
+  vtkNew<vtkPlaneSource> half;
+  half->SetOrigin(0, -1, 1);
+  half->SetPoint1(1, -1, 1);
+  half->SetPoint2(0, 1, 1);
+  half->Update();
+  right.AddMapper(MakeMapper(half->GetOutput()));
+  ExpectSame(GetTexelsOf(mapper), right.GetTexels(), Rounding);
+
+  // 51 of 255 are exact.
+  const vtkSmartPointer<vtkPolyDataMapper> faint = MakeMapper(MakePane({ 0.2, 0.2 }, true));
+  faint->SetLookupTable(table);
+  const vtkSmartPointer<vtkPolyDataMapper> plain = MakeMapper(MakePane({ 0.2, 0.2 }, true));
+  plain->ScalarVisibilityOff();
+  ExpectSame(GetTexelsOf(faint), GetTexelsOf(plain, 0.2), Rounding);
+}
+
+TEST(OccluderMappers, ColoursHaveOpacities)
+{
+  vtkSmartPointer<vtkPolyData> pane = MakePane({ 0.0, 0.0 }, true);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  colours->InsertNextTuple4(255, 0, 0, 0);
+  colours->InsertNextTuple4(255, 0, 0, 0);
+  pane->GetCellData()->SetScalars(colours);
+  ExpectSame(GetTexelsOf(MakeMapper(pane)), GetLit(), 0.0f);
+}
+
+// Linear opacities are rounded to 1/16: by 1/32 of the light at most.
+TEST(OccluderMappers, PointsHaveOpacities)
+{
+  const vtkSmartPointer<vtkPolyDataMapper> mapper =
+    MakeMapper(MakePane({ 0.0, 0.5, 1.0, 0.0, 0.5, 1.0 }, false));
+  mapper->SetLookupTable(MakeOpacityTable());
+  LampScene scene;
+  scene.AddMapper(mapper);
+  scene.Lamp->SetShape(vtkAreaLightSource::POINT);
+  scene.Lamp->SetOrigin(0, 0, 4);
+  const std::vector<float> found = scene.GetTexels();
+  LampScene empty;
+  empty.Lamp->SetShape(vtkAreaLightSource::POINT);
+  empty.Lamp->SetOrigin(0, 0, 4);
+  const std::vector<float> lit = empty.GetTexels();
+  ASSERT_EQ(found.size(), lit.size());
+  for (std::size_t i = Side * Side / 2; i < Side * (Side / 2 + 1); ++i)
+  {
+    // The pane is 3 m below the lamp of 4 m: a texel at x sees it at 3/4 x, of opacity (1 + x) / 2.
+    const double x = 0.75 * (static_cast<double>(i % Side) + 0.5 - Side / 2) * 4.0 / Side;
+    const double passes = std::abs(x) < 0.97 ? 0.5 - 0.5 * x : found[i] / lit[i];
+    EXPECT_NEAR(found[i] / lit[i], passes, 1.0 / 32 + 1.0 / 255) << "texel " << i % Side;
+  }
+}
