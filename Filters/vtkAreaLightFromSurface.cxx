@@ -5,6 +5,7 @@
 #include "PolyDataStructure.h"
 #include "PolygonCells.h"
 #include "ShadowSettings.h"
+#include "SurfaceExtraction.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -131,7 +132,7 @@ int vtkAreaLightFromSurface::RequestData(
   vtkSmartPointer<vtkPolyData> polygons;
   if (problem.empty())
   {
-    polygons = MakePolygons(input);
+    polygons = MakePolygons(penumbra::WithoutHiddenCells(input));
     vtkDataArray* array = hasArray ? polygons->GetCellData()->GetArray(name.c_str()) : nullptr;
     vtkNew<vtkDoubleArray> radiance;
     radiance->SetName(vtkShadowFieldData::GetRadianceArrayName());

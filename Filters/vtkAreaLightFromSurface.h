@@ -8,6 +8,7 @@
  * counter-clockwise, or to both sides; triangle strips emit as triangles. A cell array may give
  * each its own radiance: a stained-glass window is a grid of coloured cells. The surface is one
  * light: its samples are spread over the cells by power, without bias. It blocks no light itself.
+ * Cells that vtkGhostType hides emit nothing.
  *
  * Polygons must be planar and convex; one that is not is an error, which names it, and gives an
  * empty output. So do cells that name points that are not there, and an array that is missing, is

@@ -3,8 +3,8 @@
 #include "vtkRadianceMap.h"
 
 #include "PlanTable.h"
+#include "SurfaceExtraction.h"
 #include "vtkCellData.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -17,7 +17,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
 #include "vtkShadowSceneBuilder.h"
@@ -117,15 +116,22 @@ void AddReport(const vtkRadianceBaker::Report& report, vtkStructuredGrid* grid)
   grid->GetFieldData()->AddArray(seconds);
 }
 
-/// Adds all inputs of a port; the answer is where each one's receivers end.
-std::vector<std::size_t> AddInputs(vtkShadowSceneBuilder* builder, vtkInformationVector* inputs,
-  const std::string& portName, int roles)
+/// Adds the surfaces of all inputs of a port; the answer is where each one's receivers end.
+std::vector<std::size_t> AddInputs(vtkRadianceMap* self, vtkShadowSceneBuilder* builder,
+  vtkInformationVector* inputs, const std::string& portName, int roles)
 {
   std::vector<std::size_t> ends;
   for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
   {
-    builder->AddData(
-      vtkDataObject::GetData(inputs, i), nullptr, roles, portName + "[" + std::to_string(i) + "]");
+    const std::string name = portName + "[" + std::to_string(i) + "]";
+    const penumbra::ExtractedSurfaces surfaces =
+      penumbra::ExtractSurfaces(vtkDataObject::GetData(inputs, i));
+    if (!surfaces.Problem.empty())
+    {
+      vtkWarningWithObjectMacro(
+        self, "RadianceMap: " << name << " " << surfaces.Problem << ". The rest is used.");
+    }
+    builder->AddData(surfaces.Data, nullptr, roles, name);
     ends.push_back(builder->GetScene().Receivers.size());
   }
   return ends;
@@ -143,9 +149,7 @@ vtkRadianceMap::~vtkRadianceMap() = default;
 
 int vtkRadianceMap::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   if (port != RECEIVERS)
   {
@@ -200,10 +204,10 @@ int vtkRadianceMap::RequestData(
 {
   vtkNew<vtkShadowSceneBuilder> builder;
   using Builder = vtkShadowSceneBuilder;
-  AddInputs(builder, inputVector[LIGHTS], "Lights", Builder::Light);
-  const std::vector<std::size_t> ends = AddInputs(builder, inputVector[RECEIVERS], "Receivers",
-    Builder::Receiver | Builder::DefaultReceiver | Builder::Occluder);
-  AddInputs(builder, inputVector[OCCLUDERS], "Occluders", Builder::Occluder);
+  AddInputs(this, builder, inputVector[LIGHTS], "Lights", Builder::Light);
+  const std::vector<std::size_t> ends = AddInputs(this, builder, inputVector[RECEIVERS],
+    "Receivers", Builder::Receiver | Builder::DefaultReceiver | Builder::Occluder);
+  AddInputs(this, builder, inputVector[OCCLUDERS], "Occluders", Builder::Occluder);
 
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector, RADIANCE);
   vtkTable* plan = vtkTable::GetData(outputVector, PLAN);

@@ -5,7 +5,9 @@
  * @brief bakes the radiance of receivers as data, without a view
  *
  * Computes what vtkSoftShadowPass shows, by the same bake and to the same bits, and gives it as
- * data. Inputs are polygonal data or composite data of them:
+ * data. Inputs are polygonal data, grids of any type, of which the outer surface counts, as a view
+ * shows it, and composite data of them. Cells that vtkGhostType hides are left out, as ParaView's
+ * view does (HIDDENCELL, DUPLICATECELL). What has no surface, such as a table, gets a warning:
  * - port 0, Receivers (one or more): vtkShadowReceiver's output; other planar data get its
  * defaults. They block light from each other, too;
  * - port 1, Occluders (any number): surfaces that block light, or let some

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowCaster.h"
 
+#include "PolyDataStructure.h"
 #include "ShadowSettings.h"
+#include "SurfaceExtraction.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -10,6 +12,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkSmartPointer.h"
 
@@ -20,12 +23,15 @@ vtkStandardNewMacro(vtkShadowCaster);
 namespace
 {
 
-/// A shallow copy with the settings.
+/// A shallow copy with the settings, without hidden cells of polygons: where ParaView leaves them
+/// out of what it draws, it leaves out the settings, too.
 vtkSmartPointer<vtkDataObject> MakeCaster(
   vtkDataObject* data, const penumbra::CasterSettings& settings)
 {
   auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
-  copy->ShallowCopy(data);
+  auto* polygons = vtkPolyData::SafeDownCast(data);
+  const bool isSound = polygons && penumbra::FindStructureProblem(polygons).empty();
+  copy->ShallowCopy(isSound ? penumbra::WithoutHiddenCells(polygons) : data);
   vtkShadowFieldData::Write(settings, copy->GetFieldData());
   return copy;
 }

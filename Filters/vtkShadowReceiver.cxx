@@ -4,6 +4,7 @@
 
 #include "PolyDataStructure.h"
 #include "ShadowSettings.h"
+#include "SurfaceExtraction.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -11,6 +12,7 @@
 #include "vtkPolyData.h"
 #include "vtkShadowFieldData.h"
 #include "vtkShadowSceneBuilder.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -23,7 +25,7 @@ vtkShadowReceiver::~vtkShadowReceiver() = default;
 int vtkShadowReceiver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkSmartPointer<vtkPolyData> input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const std::string structure = penumbra::FindStructureProblem(input);
   if (!structure.empty())
@@ -33,6 +35,8 @@ int vtkShadowReceiver::RequestData(
     vtkShadowFieldData::WriteRefusal(structure, output->GetFieldData());
     return 1;
   }
+  // ParaView would leave hidden cells out only of what it draws, and the settings with them.
+  input = penumbra::WithoutHiddenCells(input);
   output->ShallowCopy(input);
 
   penumbra::ReceiverSettings settings;

@@ -9,6 +9,7 @@
 #include "vtkAreaLightFromSurface.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -18,7 +19,9 @@
 #include "vtkShadowFieldData.h"
 #include "vtkSphereSource.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTable.h"
 #include "vtkTrivialProducer.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -254,6 +257,42 @@ TEST(BadInput, NaNInOccluder)
   const Messages messages;
   floor.ExpectFinite();
   messages.ExpectOne({ "Occluders[0]", "1 polygons", "not finite", "allowed" });
+}
+
+// The rest is baked, and one message names the input.
+TEST(BadInput, OccluderWithoutSurface)
+{
+  FloorMap floor;
+  vtkNew<vtkTrivialProducer> occluder;
+  vtkNew<vtkTable> table;
+  occluder->SetOutput(table);
+  floor.Map->AddInputConnection(vtkRadianceMap::OCCLUDERS, occluder->GetOutputPort());
+  const Messages messages;
+  floor.ExpectFinite();
+  messages.ExpectOne({ "Occluders[0]", "is a vtkTable, which has no surface", "allowed" });
+}
+
+// A hidden cell may be of any shape: nothing of it is seen.
+TEST(BadInput, HiddenCellsOfAReceiverAndALight)
+{
+  const vtkSmartPointer<vtkPolyData> data = MakeTriangle(0.0);
+  data->GetPoints()->InsertNextPoint(0.0, 0.0, 2.0);
+  data->GetPolys()->InsertNextCell({ 0, 1, 2, 3 });
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->InsertNextValue(0);
+  ghosts->InsertNextValue(vtkDataSetAttributes::HIDDENCELL);
+  data->GetCellData()->AddArray(ghosts);
+  vtkNew<vtkShadowReceiver> receiver;
+  vtkNew<vtkAreaLightFromSurface> light;
+  for (vtkAlgorithm* filter : std::initializer_list<vtkAlgorithm*>{ receiver, light })
+  {
+    filter->SetInputDataObject(data);
+    const Messages messages;
+    filter->Update();
+    EXPECT_EQ(messages.GetText(), "");
+    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 1);
+  }
 }
 
 TEST(BadInput, LightWithoutArea)
