@@ -485,6 +485,14 @@ bool IsWhollyBlocked(
   return open.empty();
 }
 
+ReceiverSide ReceiverPlan::GetSide() const
+{
+  const Parallelogram& base = this->Frame.GetBase();
+  return glm::dot(this->Frame.GetNormal(), glm::cross(base.EdgeX, base.EdgeY)) > 0.0
+    ? ReceiverSide::Front
+    : ReceiverSide::Back;
+}
+
 ReceiverPlan PlanWindow(const ShadowScene& scene, const Receiver& window,
   const ReceiverPlan& parent, OccluderSelector& occluders)
 {

@@ -84,7 +84,7 @@ struct PairPlan
 };
 
 /// What was decided for a receiver.
-struct ReceiverPlan
+struct PENUMBRARENDERING_EXPORT ReceiverPlan
 {
   ReceiverFrame Frame;
   glm::ivec2 Texels{ 1 }; ///< that are baked: the receiver's times Supersampling
@@ -94,6 +94,9 @@ struct ReceiverPlan
   /// Where finer texels are baked, of which the receiver's are the mean: of all lights, what texels
   /// are too large for (Receiver::IsAutomatic). What Shaded says is without it.
   WindowPlan Fine;
+
+  /// The side that is lit: not Auto.
+  ReceiverSide GetSide() const;
 };
 
 /**

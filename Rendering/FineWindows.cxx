@@ -186,6 +186,34 @@ Receiver FineWindow::MakeReceiver(const Receiver& parent, ReceiverSide side) con
   return window;
 }
 
+std::vector<FineWindow> LimitWindows(std::vector<FineWindow> windows, double mostTexels)
+{
+  const auto count = [&]
+  {
+    double texels = 0.0;
+    for (const FineWindow& window : windows)
+    {
+      texels += window.Fine.GetArea();
+    }
+    return texels;
+  };
+  bool canGrow = true;
+  while (canGrow && count() > mostTexels)
+  {
+    canGrow = false;
+    for (FineWindow& window : windows)
+    {
+      const glm::dvec2 before(window.Factor);
+      window.Factor = (window.Factor + 1) / 2;
+      const glm::dvec2 ratio = glm::dvec2(window.Factor) / before;
+      window.Fine = { glm::ivec2(glm::floor(glm::dvec2(window.Fine.Low) * ratio)),
+        glm::ivec2(glm::ceil(glm::dvec2(window.Fine.High) * ratio)) };
+      canGrow = canGrow || window.Factor != glm::ivec2(1);
+    }
+  }
+  return windows;
+}
+
 bool NeedsWindow(const PartShadow& shadow, const ReceiverFrame& frame, const glm::ivec2& texels)
 {
   const ShadowBounds& bounds = shadow.Bounds;

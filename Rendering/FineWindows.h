@@ -52,6 +52,13 @@ struct WindowPlan
   double NeededTexels = 0.0; ///< of all windows, without that
 };
 
+/**
+ * Windows to be shown by themselves: these, of at most so many texels in all; where they have more,
+ * they get larger ones.
+ */
+PENUMBRARENDERING_EXPORT std::vector<FineWindow> LimitWindows(
+  std::vector<FineWindow> windows, double mostTexels);
+
 /// Of the windows of one receiver, the most texels.
 constexpr double MostFineTexels = 4.0 * 1024 * 1024;
 

@@ -108,7 +108,7 @@ std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
 bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
 {
   const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
-    std::to_string(receivers) + "\n" + vtkSoftShadowFS +
+    std::to_string(receivers) + "\n#define PENUMBRA_WINDOWS 0\n" + vtkSoftShadowFS +
     "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
     "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
   return ReadyFullScreenProgram(window, source.c_str());
@@ -117,7 +117,8 @@ bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
 void AddShadowCode(const ShadowCode& code, std::string& vertexShader,
   const std::string& geometryShader, std::string& fragmentShader)
 {
-  std::string defines = "#define PENUMBRA_RECEIVERS " + std::to_string(code.Receivers) + "\n";
+  std::string defines = "#define PENUMBRA_RECEIVERS " + std::to_string(code.Receivers) +
+    "\n#define PENUMBRA_WINDOWS " + std::to_string(code.Windows) + "\n";
   std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
   if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
   {
@@ -176,8 +177,11 @@ void SetReceiverUniforms(
   // looked for, by its own parallelogram.
   const bool isAlone = entries.size() == 1;
   ReceiverUniforms uniforms;
-  for (std::size_t i = 0; i < entries.size(); ++i)
+  // Windows, the last entries, come first: see vtkSoftShadowFS.glsl.
+  const std::size_t windows = baked->CountWindows();
+  for (std::size_t place = 0; place < entries.size(); ++place)
   {
+    const std::size_t i = (place + entries.size() - windows) % entries.size();
     const vtkBakedProp::Entry& entry = entries[i];
     const Parallelogram& base = isAlone ? entry.Base : entry.Settings.Base;
     uniforms.Add(MakeMap(entry.Settings, base, fromView, matrices), entry.Settings.Settings,

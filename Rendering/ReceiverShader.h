@@ -31,6 +31,7 @@ bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window);
 struct ShadowCode
 {
   std::size_t Receivers = 1;
+  std::size_t Windows = 0;    ///< of these, windows of others
   bool HasProxy = false;      ///< does a plane stand for a surface?
   bool ShowsRadiance = false; ///< or shadows
   bool IsMatte = false;       ///< the material has no specular part

@@ -97,6 +97,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// ChooseTexels() has chosen the texels without a TexelSize: shadows that these are too large for
   /// get finer ones of their own (PlanWindows).
   bool IsAutomatic = false;
+  /// Of a window of another receiver that is shown by itself (FineWindow): that one's index among
+  /// the scene's.
+  std::optional<std::size_t> WindowOf;
   /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
   /// from here, homogeneous, in the world.
   std::optional<glm::dvec4> ProxyCentre;

@@ -120,17 +120,27 @@ const std::vector<TextureNeed>& TextureBudget::Fit(
   return this->Fitted;
 }
 
-double TextureBudget::GetBytesLeftPerTexel() const
+double TextureBudget::GetBytesLeft() const
 {
-  double left = this->MaximumBytes, texels = 0.0;
+  double left = this->MaximumBytes;
   for (const TextureNeed& texture : this->Fitted)
   {
     left -= texture.GetBytes();
+  }
+  return std::max(left, 0.0);
+}
+
+double TextureBudget::GetBytesLeftPerTexel(double others) const
+{
+  double texels = others;
+  for (const TextureNeed& texture : this->Fitted)
+  {
     for (const TexelNeed& need : texture.Receivers)
     {
       texels += static_cast<double>(need.Texels.x) * need.Texels.y;
     }
   }
+  const double left = this->GetBytesLeft() - ShadowScene::BytesPerTexel * others;
   return std::max(left, 0.0) / std::max(texels, 1.0);
 }
 

@@ -59,8 +59,10 @@ class PENUMBRARENDERING_EXPORT TextureBudget
 public:
   const std::vector<TextureNeed>& Fit(const std::vector<TextureNeed>& asked, double maximumBytes);
 
-  /// What the textures leave of the memory, for each of their texels.
-  double GetBytesLeftPerTexel() const;
+  /// What the textures leave of the memory; and for each of their texels.
+  double GetBytesLeft() const;
+  /// With those of others, as many, which take ShadowScene::BytesPerTexel.
+  double GetBytesLeftPerTexel(double others = 0.0) const;
 
   /// How many receivers got larger texels, and how much larger; empty if none did.
   std::string Describe() const;

@@ -32,6 +32,8 @@ bool IsSameReceiver(const vtkBakedProp::Entry& a, const vtkBakedProp::Entry& b)
   return a.Surface == b.Surface && a.Settings.Region == b.Settings.Region && p.Corner == q.Corner &&
     p.EdgeX == q.EdgeX && p.EdgeY == q.EdgeY && a.Settings.Settings == b.Settings.Settings &&
     a.Settings.Texels == b.Settings.Texels && a.Vertices == b.Vertices &&
+    a.HasWindows == b.HasWindows &&
+    a.Settings.WindowOf.has_value() == b.Settings.WindowOf.has_value() &&
     a.Plan.Frame.GetNormal() == b.Plan.Frame.GetNormal();
 }
 
@@ -132,7 +134,7 @@ penumbra::TexelRectangle FindRectangle(const vtkBakedProp::Entry& entry,
 /// Whether more samples would change anything.
 bool HasMoreSamples(const vtkBakedProp::Entry& entry)
 {
-  return !entry.Plan.Fine.Windows.empty() ||
+  return (!entry.Plan.Fine.Windows.empty() && !entry.HasWindows) ||
     std::any_of(entry.Plan.Pairs.begin(), entry.Plan.Pairs.end(),
       [](const penumbra::PairPlan& pair) { return pair.Needed == penumbra::Effect::Soft; });
 }
@@ -211,6 +213,13 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
     isPlain = isPlain && penumbra::IsPlain(entry.Plan, receiver.Settings);
     entry.Vertices = CountVertices(entry.Plan, receiver.Settings, showsRadiance);
     entry.Report = vtkRadianceBaker::MakeReport(entry.Plan, scene, i);
+    if (receiver.WindowOf)
+    {
+      for (Entry& other : entries)
+      {
+        other.HasWindows = other.HasWindows || other.Receiver == *receiver.WindowOf;
+      }
+    }
     entries.push_back(std::move(entry));
   }
   if (isPlain)
@@ -310,6 +319,7 @@ bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t regio
 {
   vtkRadianceBaker::Part part;
   part.Rectangle = rectangle;
+  part.TakesMeans = !entry.HasWindows;
   if (entry.Vertices > 0)
   {
     const penumbra::ReceiverPlan vertices = penumbra::PlanVertices(entry.Plan, entry.Vertices);
@@ -387,6 +397,7 @@ bool vtkBakedProp::FinishTiles(
     vtkRadianceBaker::Part part;
     part.Rectangle = tile.Rectangle;
     part.Masks = &tile.Masks;
+    part.TakesMeans = !entry.HasWindows;
     entry.Report =
       baker->BakePart(entry.Plan, entry.Receiver, this->Window, this->Texture, region, part);
     if (!entry.Report.IsComplete)
@@ -460,7 +471,7 @@ std::vector<glm::vec4> vtkBakedProp::Download(
     return {}; // it went with its window
   }
   std::vector<glm::vec4> shown;
-  if (this->IsTextured && this->Entries[entry].Vertices == 0)
+  if (this->IsTextured && this->Entries[entry].Vertices == 0 && !this->Entries[entry].HasWindows)
   {
     const vtkRadianceTexture::Region& region = this->Texture->GetRegions()[entry];
     shown = this->Texture->Download(region).Irradiance;
@@ -480,6 +491,25 @@ std::vector<glm::vec4> vtkBakedProp::Download(
   return shown.empty() || texels.empty()
     ? texels
     : MergeHalves(this->Texture->GetRegions()[entry], shown, std::move(texels));
+}
+
+std::size_t vtkBakedProp::CountWindows() const
+{
+  return static_cast<std::size_t>(std::count_if(this->Entries.begin(), this->Entries.end(),
+    [](const Entry& entry) { return entry.Settings.WindowOf.has_value(); }));
+}
+
+vtkRadianceBaker::Report vtkBakedProp::GetReport(std::size_t entry) const
+{
+  vtkRadianceBaker::Report report = this->Entries[entry].Report;
+  for (const Entry& other : this->Entries)
+  {
+    if (other.Settings.WindowOf && *other.Settings.WindowOf == this->Entries[entry].Receiver)
+    {
+      vtkRadianceBaker::AddReport(other.Report, report);
+    }
+  }
+  return report;
 }
 
 std::size_t vtkBakedProp::GetBytes() const

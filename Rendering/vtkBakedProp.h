@@ -106,8 +106,19 @@ public:
     penumbra::TexelRectangle Draft; ///< the texels that have one sample a light
     std::vector<vtkRadianceBaker::KeptLight> Kept;
     vtkRadianceBaker::Report Report; ///< of its last bake
+    bool HasWindows = false;         ///< that are entries: its own texels have no small shadows
   };
   const std::vector<Entry>& GetEntries() const { return this->Entries; }
+
+  /**
+   * How many of the entries are windows of others (penumbra::Receiver::WindowOf): the last ones.
+   */
+  std::size_t CountWindows() const;
+
+  /**
+   * What was done for an entry, and for the windows that it has.
+   */
+  vtkRadianceBaker::Report GetReport(std::size_t entry) const;
 
   /**
    * A receiver's texels, as vtkRadianceTexture::Texels::Irradiance: those of the texture; what its

@@ -138,6 +138,12 @@ penumbra::ReceiverPlan vtkRadianceBaker::Plan(std::size_t receiver)
   return penumbra::PlanReceiver(*this->Scene, this->Scene->Receivers[receiver], this->Occluders);
 }
 
+penumbra::ReceiverPlan vtkRadianceBaker::PlanWindow(
+  const penumbra::Receiver& window, const penumbra::ReceiverPlan& parent)
+{
+  return penumbra::PlanWindow(*this->Scene, window, parent, this->Occluders);
+}
+
 vtkRadianceBaker::Report vtkRadianceBaker::MakeReport(
   const penumbra::ReceiverPlan& plan, const penumbra::ShadowScene& scene, std::size_t receiver)
 {
@@ -222,16 +228,20 @@ bool vtkRadianceBaker::BakeWindows(Job& job)
   }
   this->WarnOfGrowth(job.Plan.Fine, job.Result.Receiver);
   // Several may have parts of one texel: first these get what they hold without any.
+  const bool takesMeans = job.Wanted.TakesMeans;
   bool isDone = true;
   for (const auto& [window, rectangle] : touched)
   {
-    job.Target->Clear(job.Region, rectangle);
+    if (takesMeans || !window->IsWhole)
+    {
+      job.Target->Clear(job.Region, rectangle);
+    }
     isDone =
       isDone && (window->IsWhole || this->BakeWithout(job, rectangle, job.Target, job.Region));
   }
   for (const auto& [window, rectangle] : touched)
   {
-    isDone = isDone && this->BakeWindow(job, *window, rectangle);
+    isDone = isDone && (!takesMeans || this->BakeWindow(job, *window, rectangle));
   }
   return isDone;
 }
@@ -280,10 +290,7 @@ bool vtkRadianceBaker::BakeWithout(Job& job, const penumbra::TexelRectangle& rec
 bool vtkRadianceBaker::BakeWindow(
   Job& job, const penumbra::FineWindow& window, const penumbra::TexelRectangle& rectangle)
 {
-  const bool isFront = glm::dot(job.Plan.Frame.GetNormal(),
-                         glm::cross(job.Receiver.Base.EdgeX, job.Receiver.Base.EdgeY)) > 0.0;
-  const penumbra::Receiver receiver = window.MakeReceiver(
-    job.Receiver, isFront ? penumbra::ReceiverSide::Front : penumbra::ReceiverSide::Back);
+  const penumbra::Receiver receiver = window.MakeReceiver(job.Receiver, job.Plan.GetSide());
   const penumbra::ReceiverPlan plan =
     penumbra::PlanWindow(*this->Scene, receiver, job.Plan, this->Occluders);
   Part part;
@@ -299,7 +306,7 @@ bool vtkRadianceBaker::BakeWindow(
   {
     const Report report = this->BakeRectangle(plan, receiver, job.Result.Receiver, job.Window,
       texels, { -part.Rectangle.Low, receiver.Texels }, part);
-    this->AddReport(job, report);
+    AddReport(report, job.Result);
     isDone = report.IsComplete &&
       (window.IsWhole ||
         this->BakeWithout(job, rectangle, without, { -rectangle.Low, job.Plan.Texels })) &&
@@ -311,11 +318,11 @@ bool vtkRadianceBaker::BakeWindow(
   return isDone;
 }
 
-void vtkRadianceBaker::AddReport(Job& job, const Report& window) const
+void vtkRadianceBaker::AddReport(const Report& window, Report& receiver)
 {
   for (std::size_t i = 0; i < window.Pairs.size(); ++i)
   {
-    PairReport& pair = job.Result.Pairs[i];
+    PairReport& pair = receiver.Pairs[i];
     const PairReport& added = window.Pairs[i];
     if (pair.Effect == penumbra::Effect::Hard && added.Effect == penumbra::Effect::Soft)
     {
@@ -328,7 +335,7 @@ void vtkRadianceBaker::AddReport(Job& job, const Report& window) const
     pair.Bytes = std::max(pair.Bytes, added.Bytes);
     pair.ExactTexels += added.ExactTexels;
   }
-  job.Result.PeakBytes = std::max(job.Result.PeakBytes, window.PeakBytes);
+  receiver.PeakBytes = std::max(receiver.PeakBytes, window.PeakBytes);
 }
 
 bool vtkRadianceBaker::BakeLights(Job& job)

@@ -99,6 +99,9 @@ public:
   static Report MakeReport(
     const penumbra::ReceiverPlan& plan, const penumbra::ShadowScene& scene, std::size_t receiver);
 
+  /// Adds what was done for a window to the report of its receiver.
+  static void AddReport(const Report& window, Report& receiver);
+
   /// What is kept of a light between bakes of a receiver.
   struct KeptLight
   {
@@ -119,6 +122,9 @@ public:
     std::size_t MaskAndKeptBytes = 0;
     /// Those of DrawMasksUntil(), when it is done; nullptr: they are drawn as they are needed.
     const penumbra::PartMasks* Masks = nullptr;
+    /// Whether the receiver's texels hold the mean of its windows; else, these are shown, and it
+    /// has no small shadows.
+    bool TakesMeans = true;
   };
 
   ///@{
@@ -129,6 +135,8 @@ public:
    */
   void SetScene(const penumbra::ShadowScene& scene);
   penumbra::ReceiverPlan Plan(std::size_t receiver);
+  penumbra::ReceiverPlan PlanWindow(
+    const penumbra::Receiver& window, const penumbra::ReceiverPlan& parent);
   Report BakePart(const penumbra::ReceiverPlan& plan, std::size_t receiver,
     vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture, std::size_t region,
     const Part& part);
@@ -170,7 +178,6 @@ private:
     const vtkRadianceTexture::Region& region);
   bool BakeWindow(
     Job& job, const penumbra::FineWindow& window, const penumbra::TexelRectangle& rectangle);
-  void AddReport(Job& job, const Report& window) const;
   ///@}
   bool BakeLights(Job& job);
   bool BakeLight(Job& job, std::size_t light, int count);

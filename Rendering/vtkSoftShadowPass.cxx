@@ -56,7 +56,8 @@ struct ShownProp
   bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
   bool IsMatte = false;
 
-  std::size_t CountReceivers() const { return this->Baked->GetEntries().size(); }
+  std::size_t CountEntries() const { return this->Baked->GetEntries().size(); }
+  std::size_t CountReceivers() const { return this->CountEntries() - this->Baked->CountWindows(); }
   std::size_t GetBytes() const
   {
     return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
@@ -336,11 +337,21 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   this->Baker->SetScene(scene);
   std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
   this->FitTextures(plans);
-  const double keptBytes = this->Impl->Budget.GetBytesLeftPerTexel();
+  const std::vector<std::vector<std::size_t>> windows = this->AddWindows(plans);
+  double windowTexels = 0.0;
+  for (const penumbra::Receiver& receiver : scene.Receivers)
+  {
+    windowTexels += receiver.WindowOf ? receiver.GetBakedTexels() : 0.0;
+  }
+  const double keptBytes = this->Impl->Budget.GetBytesLeftPerTexel(windowTexels);
+  std::size_t place = 0;
   bool isBaked = false;
   const std::size_t maximum = penumbra::GetMaximumReceivers(window);
-  for (const auto& [prop, receivers] : this->Impl->Collector->GetReceiverProps())
+  for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
   {
+    std::vector<std::size_t> receivers = own;
+    receivers.insert(receivers.end(), windows[place].begin(), windows[place].end());
+    ++place;
     if (receivers.size() > maximum)
     {
       vtkErrorMacro("A surface has " << receivers.size() << " planar receivers; allowed: "
@@ -472,6 +483,39 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
   this->Impl->BudgetWarning = problem;
 }
 
+std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddWindows(
+  std::vector<penumbra::ReceiverPlan>& plans)
+{
+  // Each window costs every fragment of its prop a look, and half of what memory is left is theirs.
+  constexpr std::size_t MostWindows = 48;
+  std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
+  double left = 0.5 * this->Impl->Budget.GetBytesLeft() / penumbra::ShadowScene::BytesPerTexel;
+  std::vector<std::vector<std::size_t>> added;
+  for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
+  {
+    added.emplace_back();
+    for (const std::size_t i : own)
+    {
+      const std::vector<penumbra::FineWindow> windows =
+        penumbra::LimitWindows(plans[i].Fine.Windows, std::min(left, penumbra::MostFineTexels));
+      if (receivers[i].ProxyCentre || added.back().size() + windows.size() > MostWindows)
+      {
+        continue; // its own texels take their mean
+      }
+      for (const penumbra::FineWindow& window : windows)
+      {
+        penumbra::Receiver receiver = window.MakeReceiver(receivers[i], plans[i].GetSide());
+        receiver.WindowOf = i;
+        left -= window.Fine.GetArea();
+        plans.push_back(this->Baker->PlanWindow(receiver, plans[i]));
+        added.back().push_back(receivers.size());
+        receivers.push_back(receiver);
+      }
+    }
+  }
+  return added;
+}
+
 void vtkSoftShadowPass::ChooseShading()
 {
   // Props may have been deleted since they were baked.
@@ -498,7 +542,7 @@ void vtkSoftShadowPass::ChooseShading()
     if (shown.Baked->HasTexture() && (isOther || !shown.WasTried))
     {
       MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
-      if (!penumbra::CompilesShadowCode(shown.CountReceivers(), this->Impl->Window))
+      if (!penumbra::CompilesShadowCode(shown.CountEntries(), this->Impl->Window))
       {
         vtkErrorMacro("The shader code that shows shadows on "
           << shown.CountReceivers() << " receivers did not compile. They are drawn without "
@@ -538,6 +582,7 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   const std::vector<vtkBakedProp::Entry>& entries = found->Baked->GetEntries();
   penumbra::ShadowCode code;
   code.Receivers = entries.size();
+  code.Windows = found->Baked->CountWindows();
   code.HasProxy = std::any_of(entries.begin(), entries.end(),
     [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
   code.ShowsRadiance = found->Shading == RADIANCE;
@@ -620,9 +665,9 @@ void vtkSoftShadowPass::GetPlan(vtkTable* table)
   int receiver = 0;
   for (const ShownProp& shown : this->Impl->Shown)
   {
-    for (const vtkBakedProp::Entry& entry : shown.Baked->GetEntries())
+    for (std::size_t i = 0; i < shown.CountReceivers(); ++i)
     {
-      penumbra::AddToPlanTable(receiver++, entry.Report, table);
+      penumbra::AddToPlanTable(receiver++, shown.Baked->GetReport(i), table);
     }
   }
 }

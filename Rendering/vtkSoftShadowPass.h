@@ -230,6 +230,8 @@ private:
   std::vector<penumbra::ReceiverPlan> PlanReceivers();
   /// Gives receivers larger texels where MaximumTextureMemory asks for it.
   void FitTextures(std::vector<penumbra::ReceiverPlan>& plans);
+  /// Adds windows of receivers as receivers, with their plans: their indices, prop by prop.
+  std::vector<std::vector<std::size_t>> AddWindows(std::vector<penumbra::ReceiverPlan>& plans);
   void BakeReceivers(vtkOpenGLRenderWindow* window);
   /// Bakes what is a draft as it is to be: in a PROGRESSIVE frame, as much as there is time for.
   void FinishDrafts();

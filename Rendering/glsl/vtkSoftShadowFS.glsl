@@ -56,6 +56,11 @@ vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
   float nearest = 3.0e38;
   for (int i = 0; i < PENUMBRA_RECEIVERS; ++i)
   {
+#if PENUMBRA_WINDOWS > 0
+    // The first are windows of finer texels in the others: where a fragment lies in both, they come before these,
+    // for all that rounding does to heights.
+    nearest -= i == PENUMBRA_WINDOWS ? 1.0e-3 : 0.0;
+#endif
     vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[i], position);
     vec3 uvh = uvhq.xyz / uvhq.w;
     vec2 outside = abs(uvh.xy - 0.5);

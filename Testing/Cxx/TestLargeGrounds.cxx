@@ -5,12 +5,19 @@
 // small the shadow is against the receiver: its area is that of geometry.
 
 #include "DirectionalLight.h"
+#include "PassScene.h"
 #include "RandomGeometry.h"
 #include "TestScenes.h"
 #include "vtkBakedProp.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
+#include "vtkRadianceMap.h"
+#include "vtkStructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -211,7 +218,105 @@ std::string AddThing(std::size_t kind, RandomGeometry& random, Surface& surface)
   }
 }
 
+/// A view from above on a ground with a ball of 1 m under the sun.
+class GroundView : public PassScene
+{
+public:
+  explicit GroundView(double halfSide)
+    : PassScene(200, 200)
+  {
+    this->Ball->SetRadius(0.5);
+    this->Ball->SetThetaResolution(32);
+    this->Ball->SetPhiResolution(32);
+    this->Ball->SetCenter(0.0, 0.0, 0.5);
+    this->Add(this->Ball);
+    this->AddReceiver({ -halfSide, -halfSide, 0 }, { halfSide, -halfSide, 0 },
+      { -halfSide, halfSide, 0 }, this->Receiver);
+    this->Sun->SetShape(vtkAreaLightSource::DIRECTIONAL);
+    this->AddLight(this->Sun, { 1, 0, 0.8 }, { 0, 0, 0 }, { 0, 1, 0 });
+    vtkCamera* camera = this->Renderer->GetActiveCamera();
+    camera->SetPosition(0.0, 0.0, 40.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetViewUp(0.0, 1.0, 0.0);
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(2.0);
+    this->Renderer->ResetCameraClippingRange();
+  }
+
+  vtkNew<vtkSphereSource> Ball;
+  vtkNew<vtkShadowReceiver> Receiver;
+  vtkNew<vtkAreaLightSource> Sun;
+};
+
+int GetBrightness(const std::array<unsigned char, 3>& pixel)
+{
+  return pixel[0] + pixel[1] + pixel[2];
+}
+
 } // namespace
+
+TEST(LargeGrounds, AShadowLooksAsOnASmallGround)
+{
+  GroundView small(5.0);
+  const PassScene::Pixels right = small.Render();
+  small.SetShadows(false);
+  const std::size_t shadow = CountDifferences(right, small.Render());
+  ASSERT_GT(shadow, 1000u);
+  for (const double halfSide : { 50.0, 250.0, 2000.0 })
+  {
+    GroundView large(halfSide);
+    const PassScene::Pixels shown = large.Render();
+    // A pixel is as large as a texel of the small ground, 2 cm: the edge, 3.7 m long, may lie in
+    // another one, or one more beside it, by the reconstruction. A third of full brightness tells
+    // the shadow from the ground.
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < right.size(); ++i)
+    {
+      other += std::abs(GetBrightness(right[i]) - GetBrightness(shown[i])) > 255 ? 1 : 0;
+    }
+    EXPECT_LT(other, 2u * 185u) << "ground of " << 2.0 * halfSide << ", shadow of " << shadow;
+  }
+}
+
+TEST(LargeGrounds, TheViewGivesTheTexelsOfTheData)
+{
+  GroundView view(250.0);
+  view.Render();
+  const vtkSmartPointer<vtkFloatArray> shown = view.Pass->GetTexels(0);
+  EXPECT_EQ(view.Pass->GetNumberOfReceivers(), 1);
+  vtkNew<vtkRadianceMap> map;
+  map->AddInputConnection(vtkRadianceMap::RECEIVERS, view.Receiver->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::LIGHTS, view.Sun->GetOutputPort());
+  map->AddInputConnection(vtkRadianceMap::OCCLUDERS, view.Ball->GetOutputPort());
+  map->Update();
+  auto* output =
+    vtkMultiBlockDataSet::SafeDownCast(map->GetOutputDataObject(vtkRadianceMap::RADIANCE));
+  ASSERT_EQ(output->GetNumberOfBlocks(), 1u);
+  auto* radiance = vtkFloatArray::SafeDownCast(
+    vtkStructuredGrid::SafeDownCast(output->GetBlock(0))->GetCellData()->GetArray("Radiance"));
+  ASSERT_EQ(radiance->GetNumberOfTuples(), shown->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < shown->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_EQ(radiance->GetTypedComponent(i, c), shown->GetTypedComponent(i, c))
+        << "texel " << i << ", component " << c;
+    }
+  }
+}
+
+TEST(LargeGrounds, AMovedBallIsShownAsInAFreshView)
+{
+  GroundView moved(250.0);
+  moved.Render();
+  for (const double x : { 0.7, -0.4, -0.4003 })
+  {
+    moved.Ball->SetCenter(x, 0.3, 0.5);
+    GroundView fresh(250.0);
+    fresh.Ball->SetCenter(x, 0.3, 0.5);
+    EXPECT_EQ(CountDifferences(moved.Render(), fresh.Render()), 0u) << "ball at " << x;
+  }
+}
 
 TEST(LargeGrounds, ABallHasItsShadowOnGroundsOfEachSize)
 {
