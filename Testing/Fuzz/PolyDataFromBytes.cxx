@@ -5,6 +5,7 @@
 #include "ShadowSettings.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -16,6 +17,7 @@
 #include "vtkStringArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 
 namespace
 {
@@ -166,6 +168,24 @@ void AddCellArrays(ByteReader& bytes, vtkPolyData* data)
   }
 }
 
+/// Some cells, and at times more or fewer than there are, are hidden or copies.
+void AddGhostTypes(ByteReader& bytes, vtkPolyData* data)
+{
+  if (bytes.Below(4) != 1)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  const vtkIdType count =
+    bytes.Below(OneIdIn) == 1 ? bytes.Below(MostCells) : data->GetNumberOfCells();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ghosts->InsertNextValue(static_cast<unsigned char>(bytes.Byte()));
+  }
+  data->GetCellData()->AddArray(ghosts);
+}
+
 penumbra::ReceiverSettings MakeReceiverSettings(ByteReader& bytes)
 {
   penumbra::ReceiverSettings settings;
@@ -226,5 +246,6 @@ vtkSmartPointer<vtkPolyData> MakePolyData(ByteReader& bytes)
   data->SetPoints(MakePoints(bytes));
   SetCells(bytes, data);
   AddCellArrays(bytes, data);
+  AddGhostTypes(bytes, data);
   return data;
 }
