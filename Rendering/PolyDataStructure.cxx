@@ -34,11 +34,11 @@ vtkIdType FindBadId(vtkIdType ids, vtkIdType points, Get&& get)
 vtkIdType FindBadId(vtkDataArray* ids, vtkIdType points)
 {
   const vtkIdType count = ids->GetNumberOfValues();
-  if (auto* ids64 = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  if (auto* ids64 = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt64>>(ids))
   {
     return FindBadId(count, points, [ids64](vtkIdType i) { return ids64->GetValue(i); });
   }
-  if (auto* ids32 = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+  if (auto* ids32 = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt32>>(ids))
   {
     return FindBadId(count, points, [ids32](vtkIdType i) { return ids32->GetValue(i); });
   }
