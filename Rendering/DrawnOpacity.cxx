@@ -190,18 +190,18 @@ bool AreExact(vtkPolyData* data, vtkUnsignedCharArray* opacities, bool areOfPoin
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> WithOpacities(vtkMapper* mapper, vtkPolyData* data)
+vtkSmartPointer<vtkUnsignedCharArray> FindOpacities(
+  vtkMapper* mapper, vtkDataSet* data, bool& areOfCells)
 {
-  bool areOfCells = false;
   vtkAbstractArray* scalars = GetScalars(mapper, data, areOfCells);
   if (!scalars)
   {
-    return data;
+    return nullptr;
   }
   vtkScalarsToColors* table = mapper->GetLookupTable();
   if (table->IsOpaque(scalars, mapper->GetColorMode(), mapper->GetArrayComponent()))
   {
-    return data;
+    return nullptr;
   }
   if (!mapper->GetUseLookupTableScalarRange())
   {
@@ -209,12 +209,23 @@ vtkSmartPointer<vtkPolyData> WithOpacities(vtkMapper* mapper, vtkPolyData* data)
   }
   const auto colours = vtkSmartPointer<vtkUnsignedCharArray>::Take(
     table->MapScalars(scalars, mapper->GetColorMode(), mapper->GetArrayComponent(), VTK_RGBA));
-  vtkNew<vtkUnsignedCharArray> opacities;
+  auto opacities = vtkSmartPointer<vtkUnsignedCharArray>::New();
   opacities->SetName(OpacityArray);
   opacities->SetNumberOfTuples(colours->GetNumberOfTuples());
   for (vtkIdType i = 0; i < colours->GetNumberOfTuples(); ++i)
   {
     opacities->SetValue(i, colours->GetTypedComponent(i, 3));
+  }
+  return opacities;
+}
+
+vtkSmartPointer<vtkPolyData> WithOpacities(vtkMapper* mapper, vtkPolyData* data)
+{
+  bool areOfCells = false;
+  const vtkSmartPointer<vtkUnsignedCharArray> opacities = FindOpacities(mapper, data, areOfCells);
+  if (!opacities)
+  {
+    return data;
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(data);

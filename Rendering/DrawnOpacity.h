@@ -16,6 +16,7 @@
 class vtkDataSet;
 class vtkMapper;
 class vtkPolyData;
+class vtkUnsignedCharArray;
 
 namespace penumbra
 {
@@ -25,6 +26,11 @@ constexpr const char* OpacityArray = "PenumbraOpacity";
 
 /// A surface of more opacities than this is divided by multiples of one over it.
 constexpr int MostOpacities = 16;
+
+/// The opacities that the mapper's scalars give to the data's cells or points, 0 to 255; nullptr if
+/// they are all opaque.
+vtkSmartPointer<vtkUnsignedCharArray> FindOpacities(
+  vtkMapper* mapper, vtkDataSet* data, bool& areOfCells);
 
 /// The data with the OpacityArray by which the mapper's scalars make them translucent; the data
 /// themselves where nothing does.

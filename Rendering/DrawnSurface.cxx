@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawnSurface.h"
 
+#include "DrawnGlyphs.h"
 #include "DrawnOpacity.h"
 #include "ShadowSettings.h"
 #include "vtkActor.h"
@@ -10,6 +11,9 @@
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetMapper.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
 #include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
@@ -17,6 +21,7 @@
 #include "vtkNew.h"
 #include "vtkPlane.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkShadowFieldData.h"
 
@@ -128,6 +133,24 @@ vtkSmartPointer<vtkPolyData> Clip(
   return data;
 }
 
+/// The polygons that the mapper draws of a data set, before they are clipped; nullptr if none.
+vtkSmartPointer<vtkPolyData> MakePolygons(vtkMapper* mapper, vtkDataSet* leaf, std::string& problem)
+{
+  if (DrawsGlyphs(mapper))
+  {
+    return MakeGlyphs(mapper, leaf, problem);
+  }
+  vtkSmartPointer<vtkPolyData> polygons = vtkPolyData::SafeDownCast(leaf);
+  if (!polygons && vtkDataSetMapper::SafeDownCast(mapper))
+  {
+    vtkNew<vtkDataSetSurfaceFilter> surface;
+    surface->SetInputData(leaf);
+    surface->Update();
+    polygons = surface->GetOutput();
+  }
+  return polygons;
+}
+
 /// What a part is drawn in: nothing certain where scalars or a texture colour it.
 std::optional<glm::dvec3> GetColour(
   const DrawnActor& drawn, vtkDataSet* leaf, const BlockStyle& style)
@@ -184,7 +207,7 @@ void AppendWord(std::vector<std::uint64_t>& words, double value)
 
 bool IsDrawnAsItIs(const DrawnActor& drawn)
 {
-  bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0;
+  bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0 && !DrawsGlyphs(drawn.Mapper);
   const double opacity = drawn.Actor->GetProperty()->GetOpacity();
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
@@ -197,15 +220,23 @@ bool IsDrawnAsItIs(const DrawnActor& drawn)
   return isAsItIs;
 }
 
-std::vector<DrawnPart> FindDrawnParts(const DrawnActor& drawn, bool mayReceive)
+bool IsKnown(vtkMapper* mapper)
+{
+  return vtkPolyDataMapper::SafeDownCast(mapper) || vtkDataSetMapper::SafeDownCast(mapper) ||
+    vtkGlyph3DMapper::SafeDownCast(mapper);
+}
+
+std::vector<DrawnPart> FindDrawnParts(
+  const DrawnActor& drawn, bool mayReceive, std::string& problem)
 {
   const std::vector<Plane> planes = GetClippingPlanes(drawn);
   DrawnParts parts;
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
     {
-      vtkSmartPointer<vtkPolyData> polygons = vtkPolyData::SafeDownCast(leaf);
-      if (!polygons || !style.IsVisible)
+      vtkSmartPointer<vtkPolyData> polygons =
+        style.IsVisible ? MakePolygons(drawn.Mapper, leaf, problem) : nullptr;
+      if (!polygons)
       {
         return;
       }
@@ -215,7 +246,7 @@ std::vector<DrawnPart> FindDrawnParts(const DrawnActor& drawn, bool mayReceive)
         parts.Add(Clip(polygons, planes), style.Opacity, colour);
         return;
       }
-      if (!style.Colour)
+      if (!style.Colour && !DrawsGlyphs(drawn.Mapper))
       {
         polygons = WithOpacities(drawn.Mapper, polygons);
       }
@@ -248,6 +279,7 @@ void AppendDrawnState(std::vector<std::uint64_t>& words, const DrawnActor& drawn
         AppendWord(words, (*style.Colour)[i]);
       }
       AppendOpacityState(words, drawn.Mapper, leaf);
+      AppendGlyphState(words, drawn.Mapper, leaf);
     });
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkActor;
@@ -49,9 +50,14 @@ bool IsDrawnAsItIs(const DrawnActor& drawn);
  * The polygons that the mapper draws: what its clipping planes leave of its visible blocks, in
  * parts by their opacity and colour. Opacities of cells and points are those of the lookup table or
  * of colours with an alpha (SplitByOpacity). What is wholly transparent is left out. Data with
- * receiver settings stay one part for each block, with the block's opacity, if `mayReceive`.
+ * receiver settings stay one part for each block, with the block's opacity, if `mayReceive`. What
+ * is drawn but left out is said by `problem`.
  */
-std::vector<DrawnPart> FindDrawnParts(const DrawnActor& drawn, bool mayReceive);
+std::vector<DrawnPart> FindDrawnParts(
+  const DrawnActor& drawn, bool mayReceive, std::string& problem);
+
+/// Whether mappers like this one draw polygons that can be found.
+bool IsKnown(vtkMapper* mapper);
 
 /**
  * Appends all that FindDrawnParts() depends on but for the data, their blocks' visibility and the

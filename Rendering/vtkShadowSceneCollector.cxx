@@ -11,10 +11,12 @@
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointGaussianMapper.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
@@ -60,6 +62,10 @@ using CompositeMapper = vtkCompositePolyDataMapper;
 
 vtkCompositeDataDisplayAttributes* GetAttributes(vtkMapper* mapper)
 {
+  if (auto* glyphs = vtkGlyph3DMapper::SafeDownCast(mapper))
+  {
+    return glyphs->GetBlockAttributes();
+  }
   auto* composite = CompositeMapper::SafeDownCast(mapper);
   return composite ? composite->GetCompositeDataDisplayAttributes() : nullptr;
 }
@@ -77,16 +83,22 @@ vtkMapper* GetFullMapper(vtkActor* actor)
   return actor->vtkActor::GetMapper();
 }
 
-/// What a polygonal mapper draws, up to date; nullptr for other mappers.
+/// The data of a mapper of surfaces, up to date; nullptr for other mappers.
 vtkDataObject* GetMappedData(vtkMapper* mapper)
 {
-  if (!vtkPolyDataMapper::SafeDownCast(mapper) && !CompositeMapper::SafeDownCast(mapper))
+  if (!penumbra::IsKnown(mapper) && !CompositeMapper::SafeDownCast(mapper))
   {
     return nullptr;
   }
   if (mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
+  }
+  for (int i = 0; vtkGlyph3DMapper::SafeDownCast(mapper) && !mapper->GetStatic() &&
+       i < mapper->GetNumberOfInputConnections(1);
+       ++i)
+  {
+    mapper->GetInputAlgorithm(1, i)->Update();
   }
   return mapper->GetInputDataObject(0, 0);
 }
@@ -143,11 +155,18 @@ penumbra::DrawnActor GetDrawn(const VisitedPart& part)
   return { part.Actor, GetFullMapper(part.Actor), part.Matrix, part.Data, part.Attributes };
 }
 
+/// Whether the mapper's shaders can show shadows on the polygons of its data.
+bool CanShowShadows(vtkMapper* mapper)
+{
+  return CompositeMapper::SafeDownCast(mapper) ||
+    (vtkPolyDataMapper::SafeDownCast(mapper) && !vtkPointGaussianMapper::SafeDownCast(mapper));
+}
+
 /// Only a prop of its own can receive: the parts of an assembly have no property keys of their own.
 bool MayReceive(vtkProp* prop, const VisitedPart& part, bool onlyDesignated)
 {
   vtkInformation* keys = prop->GetPropertyKeys();
-  return prop == part.Actor && part.IsSurface &&
+  return prop == part.Actor && part.IsSurface && CanShowShadows(GetFullMapper(part.Actor)) &&
     (!onlyDesignated || (keys && keys->Has(vtkSoftShadowPass::DESIGNATED())));
 }
 
@@ -204,8 +223,8 @@ penumbra::CasterSettings GetCaster(
   return caster;
 }
 
-/// Adds all that an actor draws to the builder, lights apart.
-void AddDrawn(vtkShadowSceneBuilder* builder, vtkProp* prop, const VisitedPart& visited,
+/// Adds all that an actor draws to the builder, lights apart. The answer says what is left out.
+std::string AddDrawn(vtkShadowSceneBuilder* builder, vtkProp* prop, const VisitedPart& visited,
   bool mayReceive, const std::string& name)
 {
   const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
@@ -215,13 +234,15 @@ void AddDrawn(vtkShadowSceneBuilder* builder, vtkProp* prop, const VisitedPart& 
   {
     builder->SetCaster(GetCaster(prop, visited));
     builder->AddData(visited.Data, visited.Matrix, roles, name, visited.Attributes);
-    return;
+    return "";
   }
-  for (const penumbra::DrawnPart& part : penumbra::FindDrawnParts(drawn, mayReceive))
+  std::string problem;
+  for (const penumbra::DrawnPart& part : penumbra::FindDrawnParts(drawn, mayReceive, problem))
   {
     builder->SetCaster(GetCaster(prop, visited, part));
     builder->AddData(part.Data, visited.Matrix, roles, name);
   }
+  return problem;
 }
 
 /// How error messages name an actor.
@@ -365,8 +386,13 @@ void vtkShadowSceneCollector::Build(
       if (part.IsNew)
       {
         part.Builder->SetLights(lights);
-        AddDrawn(part.Builder, prop, visited, MayReceive(prop, visited, onlyDesignated),
-          Describe(visited.Actor));
+        const std::string name = Describe(visited.Actor);
+        const std::string problem =
+          AddDrawn(part.Builder, prop, visited, MayReceive(prop, visited, onlyDesignated), name);
+        if (!problem.empty() && this->Said.insert(name + problem).second)
+        {
+          vtkWarningMacro("'" << name << "': " << problem << ". They cast no shadow.");
+        }
         part.IsNew = false;
       }
     });

@@ -22,6 +22,8 @@
 #include "vtkWeakPointer.h"  // for vtkWeakPointer
 
 #include <cstdint> // for the signature
+#include <set>     // for warnings
+#include <string>  // for warnings
 #include <vector>  // for receivers
 
 class vtkProp;
@@ -75,7 +77,8 @@ private:
   void Build(vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts);
   void Assemble();
 
-  std::vector<Part> Parts; ///< in the order of the renderer's props
+  std::set<std::string> Said; ///< warnings, each once
+  std::vector<Part> Parts;    ///< in the order of the renderer's props
   penumbra::ShadowScene Scene;
   std::vector<ReceiverProp> ReceiverProps;
 };

@@ -9,8 +9,10 @@
 #include "vtkClipPolyData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCubeSource.h"
+#include "vtkDataSetMapper.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
 #include "vtkLookupTable.h"
 #include "vtkMultiBlockDataSet.h"
@@ -18,10 +20,13 @@
 #include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
+#include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkSkybox.h"
 #include "vtkTexture.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVersionMacros.h"
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
@@ -34,6 +39,7 @@ using CompositeMapper = vtkCompositePolyDataMapper;
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -313,4 +319,120 @@ TEST(OccluderMappers, PointsHaveOpacities)
     const double passes = std::abs(x) < 0.97 ? 0.5 - 0.5 * x : found[i] / lit[i];
     EXPECT_NEAR(found[i] / lit[i], passes, 1.0 / 32 + 1.0 / 255) << "texel " << i % Side;
   }
+}
+
+// Of two points, each with a source, a size and a direction of its own.
+TEST(OccluderMappers, GlyphsCast)
+{
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(-0.8, 0, 0.7);
+  places->InsertNextPoint(0.8, 0.2, 0.9);
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(places);
+  const auto addArray = [&](const char* name, int components, const std::vector<double>& values)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(2);
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    points->GetPointData()->AddArray(array);
+  };
+  addArray("Size", 3, { 1.0, 0.5, 2.0, 0.7, 1.5, 0.4 });
+  addArray("Turn", 3, { 10, 20, 30, -40, 15, 60 });
+  addArray("Kind", 1, { 0, 1 });
+  vtkNew<vtkCubeSource> cube;
+  cube->SetXLength(0.5);
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(0.4);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(points);
+  mapper->SetSourceConnection(0, cube->GetOutputPort());
+  mapper->SetSourceConnection(1, ball->GetOutputPort());
+  mapper->SetScaleModeToScaleByVectorComponents();
+  mapper->SetScaleArray("Size");
+  mapper->SetScaleFactor(0.6);
+  mapper->SetOrientationModeToRotation();
+  mapper->SetOrientationArray("Turn");
+  mapper->SourceIndexingOn();
+  mapper->SetSourceIndexArray("Kind");
+  mapper->SetRange(0, 2);
+  LampScene found;
+  found.AddMapper(mapper);
+
+  LampScene right;
+  const auto addRight =
+    [&](vtkAlgorithm* source, const double at[3], const double scale[3], const double turn[3])
+  {
+    vtkNew<vtkTransform> transform; // as vtkProp3D's orientation
+    transform->Translate(at);
+    transform->RotateZ(turn[2]);
+    transform->RotateX(turn[0]);
+    transform->RotateY(turn[1]);
+    transform->Scale(0.6 * scale[0], 0.6 * scale[1], 0.6 * scale[2]);
+    vtkNew<vtkTransformPolyDataFilter> moved;
+    moved->SetTransform(transform);
+    moved->SetInputConnection(source->GetOutputPort());
+    moved->Update();
+    right.AddMapper(MakeMapper(moved->GetOutput()));
+  };
+  const double at[][3] = { { -0.8, 0, 0.7 }, { 0.8, 0.2, 0.9 } };
+  const double scale[][3] = { { 1.0, 0.5, 2.0 }, { 0.7, 1.5, 0.4 } };
+  const double turn[][3] = { { 10, 20, 30 }, { -40, 15, 60 } };
+  addRight(cube, at[0], scale[0], turn[0]);
+  addRight(ball, at[1], scale[1], turn[1]);
+  // The transformed points are floats: a sample may pass the other side of an edge. One of 32
+  // samples weighs up to 1/32 of the light, and its texel's neighbours take a part of that.
+  const std::vector<float> lit = GetLit();
+  const float one = *std::max_element(lit.begin(), lit.end()) / 32 * 1.5f;
+  ExpectSame(found.GetTexels(), right.GetTexels(), one);
+  mapper->SetScaleFactor(0.0); // a change of the mapper alone
+  ExpectSame(found.GetTexels(), lit, 0.0f);
+}
+
+// The whole shadow of a ball that is drawn as a point has the area of a fine ball's.
+TEST(OccluderMappers, GaussianPointsCastAsBalls)
+{
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(0.1, -0.1, 1.0);
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(places);
+  vtkNew<vtkPointGaussianMapper> mapper;
+  mapper->SetInputData(points);
+  mapper->SetScaleFactor(0.5);
+  mapper->EmissiveOff();
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(0.1, -0.1, 1.0);
+  ball->SetRadius(0.5);
+  ball->SetThetaResolution(64);
+  ball->SetPhiResolution(64);
+  ball->Update();
+  const std::vector<float> lit = GetLit(), found = GetTexelsOf(mapper),
+                           right = GetTexelsOf(MakeMapper(ball->GetOutput()));
+  double foundShadow = 0.0, rightShadow = 0.0;
+  for (std::size_t i = 0; i < lit.size(); ++i)
+  {
+    foundShadow += lit[i] - found[i];
+    rightShadow += lit[i] - right[i];
+  }
+  EXPECT_NEAR(foundShadow, rightShadow, 0.015 * rightShadow);
+  vtkNew<vtkPointGaussianMapper> glow;
+  glow->SetInputData(points);
+  glow->SetScaleFactor(0.5);
+  glow->EmissiveOn();
+  ExpectSame(GetTexelsOf(glow), lit, 0.0f);
+}
+
+TEST(OccluderMappers, GridsCastAsTheirSurface)
+{
+  vtkNew<vtkImageData> grid;
+  grid->SetDimensions(3, 3, 3);
+  grid->SetSpacing(0.4, 0.4, 0.2);
+  grid->SetOrigin(-0.4, -0.4, 0.5);
+  vtkNew<vtkDataSetMapper> mapper;
+  mapper->SetInputData(grid);
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(-0.4, 0.4, -0.4, 0.4, 0.5, 0.9);
+  cube->Update();
+  ExpectSame(GetTexelsOf(mapper), GetTexelsOf(MakeMapper(cube->GetOutput())), Rounding);
 }
