@@ -25,6 +25,8 @@
 #include "vtkSkybox.h"
 #include "vtkSoftShadowPass.h"
 #include "vtkVersionMacros.h"
+#include "vtkVolume.h"
+#include "vtkVolumeCollection.h"
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper2.h"
 #else
@@ -315,6 +317,7 @@ vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
 
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
+  this->WarnOfVolumes(renderer);
   std::vector<Part> parts;
   const bool isAllAtHand = VisitParts(renderer,
     [&](vtkProp* prop, const VisitedPart& visited)
@@ -334,6 +337,22 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
   this->Parts = std::move(parts);
   this->Assemble();
   return true;
+}
+
+void vtkShadowSceneCollector::WarnOfVolumes(vtkRenderer* renderer)
+{
+  vtkCollectionSimpleIterator it;
+  vtkVolumeCollection* volumes = renderer->GetVolumes();
+  volumes->InitTraversal(it);
+  while (vtkVolume* volume = volumes->GetNextVolume(it))
+  {
+    std::ostringstream text;
+    text << volume->GetClassName() << " (" << volume << ")";
+    if (volume->GetVisibility() && this->Said.insert(text.str()).second)
+    {
+      vtkWarningMacro("'" << text.str() << "': volumes cast no shadow.");
+    }
+  }
 }
 
 void vtkShadowSceneCollector::Build(

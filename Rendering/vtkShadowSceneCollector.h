@@ -76,6 +76,7 @@ private:
   };
   void Build(vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts);
   void Assemble();
+  void WarnOfVolumes(vtkRenderer* renderer);
 
   std::set<std::string> Said; ///< warnings, each once
   std::vector<Part> Parts;    ///< in the order of the renderer's props

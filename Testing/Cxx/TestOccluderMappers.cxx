@@ -3,6 +3,7 @@
 
 // What a mapper leaves out of its data, or draws translucent, casts as it is drawn.
 
+#include "Messages.h"
 #include "PassScene.h"
 
 #include "vtkCellData.h"
@@ -29,6 +30,7 @@
 #include "vtkTransformPolyDataFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVersionMacros.h"
+#include "vtkVolume.h"
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper2.h"
 using CompositeMapper = vtkCompositePolyDataMapper2;
@@ -435,4 +437,15 @@ TEST(OccluderMappers, GridsCastAsTheirSurface)
   cube->SetBounds(-0.4, 0.4, -0.4, 0.4, 0.5, 0.9);
   cube->Update();
   ExpectSame(GetTexelsOf(mapper), GetTexelsOf(MakeMapper(cube->GetOutput())), Rounding);
+}
+
+TEST(OccluderMappers, VolumesAreNamedOnce)
+{
+  LampScene scene;
+  vtkNew<vtkVolume> volume; // VTK has its own error for one without a mapper
+  scene.Renderer->AddVolume(volume);
+  const Messages messages;
+  scene.Render();
+  scene.Render();
+  EXPECT_EQ(messages.Count("volumes cast no shadow"), 1) << messages.GetText();
 }
