@@ -737,7 +737,8 @@ bool vtkRadianceBaker::MayKeep(Job& job, std::size_t light)
     return false;
   }
   job.KeptBytes -= bytes;
-  kept.Stale = isNew ? needed : kept.Stale.Intersection(needed);
+  // All that is stored, also what is not needed now: it may be needed again.
+  kept.Stale = isNew ? needed : kept.Stale.Intersection(kept.Shares.Stored);
   return true;
 }
 

@@ -102,7 +102,8 @@ public:
   /// Adds what was done for a window to the report of its receiver.
   static void AddReport(const Report& window, Report& receiver);
 
-  /// What is kept of a light between bakes of a receiver.
+  /// What is kept of a light between bakes of a receiver. Within Shares.Stored, all shares but the
+  /// stale ones are those that a whole bake of the present scene would count.
   struct KeptLight
   {
     vtkRadianceResolver::KeptShares Shares;
