@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 vtkStandardNewMacro(vtkVisibilityMask);
 
@@ -50,8 +51,10 @@ void SetProjections(
   std::transform(first, first + count, k.begin() + firstBit,
     [](const penumbra::RegisteredProjection& projection)
     {
+      // A height that no float holds is that of a direction: occluders are 0 high against it.
       const glm::dvec3& exact = projection.K;
-      return glm::vec3(exact.x, exact.y, exact.z > 0.0 ? 1.0 / exact.z : 0.0);
+      const bool isDirection = exact.z < 1.0 / std::numeric_limits<float>::max();
+      return glm::vec3(exact.x, exact.y, isDirection ? 0.0 : 1.0 / exact.z);
     });
   program->SetUniformi("firstBit", firstBit);
   program->SetUniform3fv("registration", vtkVisibilityMask::SamplesPerLayer, &k.front().x);

@@ -21,6 +21,7 @@
 #include "vtkVisibilityShareFS.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -28,6 +29,21 @@ vtkStandardNewMacro(vtkVisibilityShare);
 
 namespace
 {
+
+/// The unit in which the shader measures distances to a light, in those of the metric frame: the
+/// power of two below the light's distance, so that the fourth power of a distance is in the range
+/// of floats wherever the light is; 1 for what is close. Powers of two change no bit of a share.
+double GetLengthUnit(const penumbra::LightShape& light, const penumbra::ReceiverFrame& frame)
+{
+  const penumbra::LightHull hull = light.GetHull();
+  double farthest = 1.0;
+  for (const glm::dvec3& point : hull.AreDirections ? std::vector<glm::dvec3>() : hull.Points)
+  {
+    const glm::dvec3 place = glm::abs(frame.ToMetric(point));
+    farthest = std::max({ farthest, place.x, place.y, place.z });
+  }
+  return std::exp2(std::floor(std::log2(farthest)));
+}
 
 /// The radiance times area of a light of cells, by which that of the samples is divided: only
 /// ratios count, and floats must hold them.
@@ -83,6 +99,7 @@ bool vtkVisibilityShare::Begin(vtkOpenGLRenderWindow* window, const penumbra::Re
   }
   const glm::vec3 axis(glm::normalize(frame.DirectionToMetric(seen.GetAxis())));
   this->Program->SetUniform3f("lightAxis", &axis.x);
+  this->LengthUnit = GetLengthUnit(seen, frame);
   this->Program->SetUniformi("lightTwoSided", seen.TwoSided ? 1 : 0);
   this->Components = inBatches ? 4 : 2; // with the sums to go on from
   return this->Textures[this->Current]->Allocate(window, size, this->Components);
@@ -102,6 +119,7 @@ bool vtkVisibilityShare::SetSamples(
       : this->Frame.ToMetric(sample.Place);
     // What is below the plane is rounding; a weight below 0 would take shares out of [0, 1].
     place.z = std::max(place.z, 0.0);
+    place = sample.IsDirection ? place : place / this->LengthUnit;
     places.emplace_back(place, sample.IsDirection ? 0.0 : 1.0);
     const glm::dvec3 normal = this->Frame.DirectionToMetric(sample.Normal) * this->Frame.GetSize();
     cells.emplace_back(
@@ -173,6 +191,7 @@ void vtkVisibilityShare::Count(vtkVisibilityMask* masks, const glm::ivec2& maskF
   program->SetUniform2i("maskFirstTexel", &maskFirstTexel.x);
   program->SetUniformi("sampleCount", this->SampleCount);
   program->SetUniformi("halvings", static_cast<int>(GetBatchEnds(this->SampleCount).size()));
+  program->SetUniformf("lengthUnit", static_cast<float>(this->LengthUnit));
   program->SetUniformi("previousCount", this->PreviousCount);
   program->SetUniformi("maskFirstWord", this->PreviousCount / vtkVisibilityMask::SamplesPerLayer);
   penumbra::SetReceiverTexels(program, this->Frame, this->Texels, firstTexel);

@@ -117,6 +117,7 @@ private:
   vtkShaderProgram* Program = nullptr; ///< the window's
   penumbra::ReceiverFrame Frame;
   glm::ivec2 Texels{ 1 };
+  double LengthUnit = 1.0; ///< of the places in Samples, in units of the metric frame
   bool HasCells = false;
   bool IsTranslucent = false;
   int TranslucentCount = 0;

@@ -29,7 +29,8 @@
 
 uniform usampler2DArray masks; // bit s % 32 of layer s / 32: is sample s blocked by what is opaque?
 uniform ivec2 maskFirstTexel;  // the receiver's texel that is (0, 0) of the masks
-uniform samplerBuffer samples; // xyz: place in the metric frame; w: 0 for a direction, else 1
+uniform samplerBuffer samples; // xyz: place in the metric frame, in lengthUnits; w: 0 for a direction, else 1
+uniform float lengthUnit;      // a power of two: the fourth power of a far light's distance would overflow
 uniform samplerBuffer cells;   // of EMISSION_CELLS: xyz: the cell's normal; w: the power of the sample
 uniform int sampleCount;
 uniform int halvings;          // the first block ends at sampleCount / 2^halvings, rounded up
@@ -59,7 +60,7 @@ uint allBits(int word)
 }
 
 // What a sample would contribute to the receiver at x, up to a factor that all samples share: H&H 1997,
-// eq. 1. The receiver's normal is the z axis.
+// eq. 1. The receiver's normal is the z axis. x is in lengthUnits, as the sample is.
 float sampleWeight(int i, vec3 x)
 {
   vec4 s = texelFetch(samples, i);
@@ -200,5 +201,5 @@ vec4 countSamples(ivec2 texel, vec3 x)
 void main()
 {
   ivec2 texel = ivec2(gl_FragCoord.xy) + firstTexel;
-  gl_FragData[0] = countSamples(texel, texelPlace(texel));
+  gl_FragData[0] = countSamples(texel, texelPlace(texel) / lengthUnit);
 }
