@@ -20,6 +20,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 vtkStandardNewMacro(vtkAreaLightFromSurface);

@@ -13,6 +13,7 @@ import paraview.simple as pv
 
 SOURCE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(SOURCE / "Data"))
+sys.dont_write_bytecode = True  # the source tree stays as git has it
 
 import scenes  # from Data
 

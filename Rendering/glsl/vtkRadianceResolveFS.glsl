@@ -32,7 +32,7 @@ uniform int regionStep;         // -1 if the receiver is turned by 180 degrees t
 uniform ivec2 regionSize;
 uniform vec3 reflectance;       // for the variance alone
 
-int windows; // 1: the texel's share is filtered, and windows around it are added up; else 0
+int windows = 0; // 1: the texel's share is filtered, and windows around it are added up; else 0
 
 // What a texel sees of the light, and half the difference of what the halves of the samples say.
 vec2 seenShare(sampler2D source, ivec2 texel)

@@ -17,6 +17,7 @@
 #include "vtkRadianceBaker.h"
 #include "vtkShadowReceiver.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>

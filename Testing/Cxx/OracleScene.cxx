@@ -9,6 +9,7 @@
 #include "SegmentLight.h"
 #include "SurfaceLight.h"
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
