@@ -20,10 +20,12 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkShadowFieldData.h"
+#include "vtkTexture.h"
 
 #include <array>
 #include <cstring>
@@ -203,7 +205,48 @@ void AppendWord(std::vector<std::uint64_t>& words, double value)
   words.push_back(word);
 }
 
+/// Whether a texture has texels that are not opaque: of one or three components and an alpha.
+bool IsCutOut(vtkTexture* texture)
+{
+  vtkImageData* image = texture ? texture->GetInput() : nullptr;
+  vtkDataArray* colours = image ? image->GetPointData()->GetScalars() : nullptr;
+  const int components = colours ? colours->GetNumberOfComponents() : 0;
+  if (components != 2 && components != 4)
+  {
+    return false;
+  }
+  double alpha[2];
+  colours->GetRange(alpha, components - 1);
+  const bool isByte = colours->GetDataType() == VTK_UNSIGNED_CHAR;
+  return alpha[0] < (isByte ? static_cast<double>(VTK_UNSIGNED_CHAR_MAX) : 1.0);
+}
+
 } // namespace
+
+std::string DescribeUnlikeShadow(const DrawnActor& drawn)
+{
+  if (IsCutOut(drawn.Actor->GetTexture()))
+  {
+    return "the transparency of its texture is not looked at: its whole polygons cast shadows";
+  }
+  vtkProperty* property = drawn.Actor->GetProperty();
+  bool hasPoints = property->GetRepresentation() == VTK_POINTS;
+  bool hasLines = property->GetRepresentation() == VTK_WIREFRAME;
+  VisitLeaves(drawn,
+    [&](vtkDataSet* leaf, const BlockStyle&)
+    {
+      auto* cells = vtkPolyData::SafeDownCast(leaf);
+      hasPoints = hasPoints || (cells && cells->GetNumberOfVerts() > 0);
+      hasLines = hasLines || (cells && cells->GetNumberOfLines() > 0);
+    });
+  if ((hasPoints && property->GetRenderPointsAsSpheres()) ||
+    (hasLines && property->GetRenderLinesAsTubes()))
+  {
+    return "points drawn as spheres and lines drawn as tubes have a size in pixels alone and cast "
+           "no shadow; Glyph and Tube give them one in the world";
+  }
+  return "";
+}
 
 bool IsDrawnAsItIs(const DrawnActor& drawn)
 {

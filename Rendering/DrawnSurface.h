@@ -56,6 +56,10 @@ bool IsDrawnAsItIs(const DrawnActor& drawn);
 std::vector<DrawnPart> FindDrawnParts(
   const DrawnActor& drawn, bool mayReceive, std::string& problem);
 
+/// Tells what the actor draws as a solid, or cuts out by its texture, though its shadow does not
+/// show that; empty if there is no such thing.
+std::string DescribeUnlikeShadow(const DrawnActor& drawn);
+
 /// Whether mappers like this one draw polygons that can be found.
 bool IsKnown(vtkMapper* mapper);
 

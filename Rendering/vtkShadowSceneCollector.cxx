@@ -25,8 +25,6 @@
 #include "vtkSkybox.h"
 #include "vtkSoftShadowPass.h"
 #include "vtkVersionMacros.h"
-#include "vtkVolume.h"
-#include "vtkVolumeCollection.h"
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 0)
 #include "vtkCompositePolyDataMapper2.h"
 #else
@@ -336,21 +334,41 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
   this->Build(renderer, onlyDesignated, parts);
   this->Parts = std::move(parts);
   this->Assemble();
+  this->WarnOfActors(renderer);
   return true;
+}
+
+void vtkShadowSceneCollector::WarnOfActors(vtkRenderer* renderer)
+{
+  VisitParts(renderer,
+    [this](vtkProp*, const VisitedPart& part)
+    {
+      const std::string text = penumbra::DescribeUnlikeShadow(GetDrawn(part));
+      if (!text.empty() && this->Said.insert(Describe(part.Actor) + text).second)
+      {
+        vtkWarningMacro("'" << Describe(part.Actor) << "': " << text << ".");
+      }
+    });
 }
 
 void vtkShadowSceneCollector::WarnOfVolumes(vtkRenderer* renderer)
 {
   vtkCollectionSimpleIterator it;
-  vtkVolumeCollection* volumes = renderer->GetVolumes();
-  volumes->InitTraversal(it);
-  while (vtkVolume* volume = volumes->GetNextVolume(it))
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
   {
-    std::ostringstream text;
-    text << volume->GetClassName() << " (" << volume << ")";
-    if (volume->GetVisibility() && this->Said.insert(text.str()).second)
+    const bool isSlice = prop->IsA("vtkImageSlice");
+    if (!prop->GetVisibility() || !(isSlice || prop->IsA("vtkVolume")))
     {
-      vtkWarningMacro("'" << text.str() << "': volumes cast no shadow.");
+      continue;
+    }
+    std::ostringstream text;
+    text << prop->GetClassName() << " (" << prop << ")";
+    if (this->Said.insert(text.str()).second)
+    {
+      vtkWarningMacro("'" << text.str() << "': " << (isSlice ? "slices of images" : "volumes")
+                          << " cast no shadow.");
     }
   }
 }

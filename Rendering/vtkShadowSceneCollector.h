@@ -76,7 +76,10 @@ private:
   };
   void Build(vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts);
   void Assemble();
+  /// Volumes and slices of images, which cast no shadow; actors whose shadow is not their
+  /// picture's.
   void WarnOfVolumes(vtkRenderer* renderer);
+  void WarnOfActors(vtkRenderer* renderer);
 
   std::set<std::string> Said; ///< warnings, each once
   std::vector<Part> Parts;    ///< in the order of the renderer's props

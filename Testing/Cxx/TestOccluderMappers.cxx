@@ -15,6 +15,7 @@
 #include "vtkFloatArray.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
+#include "vtkLineSource.h"
 #include "vtkLookupTable.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
@@ -448,4 +449,36 @@ TEST(OccluderMappers, VolumesAreNamedOnce)
   scene.Render();
   scene.Render();
   EXPECT_EQ(messages.Count("volumes cast no shadow"), 1) << messages.GetText();
+}
+
+// What is drawn otherwise than its shadow says is said once for each actor, and of nothing else.
+TEST(OccluderMappers, WhatIsUnlikeItsShadowIsNamedOnce)
+{
+  LampScene scene;
+  vtkNew<vtkImageData> leaf;
+  leaf->SetDimensions(2, 2, 1);
+  leaf->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  std::fill_n(
+    static_cast<unsigned char*>(leaf->GetScalarPointer()), 16, static_cast<unsigned char>(255));
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(leaf);
+  vtkNew<vtkPlaneSource> plate;
+  const vtkSmartPointer<vtkActor> textured = scene.Add(plate);
+  textured->SetTexture(texture);
+  vtkNew<vtkLineSource> line;
+  const vtkSmartPointer<vtkActor> tube = scene.Add(line);
+  const Messages messages;
+  scene.Render();
+  EXPECT_EQ(messages.GetText(), "") << "an opaque texture and plain lines are shown as they cast";
+
+  static_cast<unsigned char*>(leaf->GetScalarPointer())[3] = 0;
+  leaf->GetPointData()->GetScalars()->Modified();
+  leaf->Modified();
+  tube->GetProperty()->RenderLinesAsTubesOn();
+  textured->SetPosition(0.0, 0.0, 0.1);
+  scene.Render();
+  tube->SetPosition(0.0, 0.0, 0.1);
+  scene.Render();
+  EXPECT_EQ(messages.Count("transparency of its texture"), 1) << messages.GetText();
+  EXPECT_EQ(messages.Count("lines drawn as tubes"), 1) << messages.GetText();
 }
