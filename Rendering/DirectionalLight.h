@@ -30,11 +30,10 @@ public:
   /// The unit vector towards the light's centre.
   const glm::dvec3& GetSource() const { return this->Source; }
 
-  /// Turns with the matrix; the angular diameter stays.
   /// Turns the samples around the direction, as DiskLight does.
   void SetFirstAxis(const glm::dvec3& axis) { this->Disk.SetFirstAxis(axis); }
 
-  /// The samples go with the map.
+  /// Turns with the matrix, and the samples with it; the angular diameter stays.
   DirectionalLight Transformed(const glm::dmat4& matrix) const;
   DirectionalLight ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const;
 
@@ -46,13 +45,21 @@ public:
   double GetMeasure() const override { return this->IsThere ? 1.0 : 0.0; }
   double GetSolidAngleBound(const Parallelogram& receiver) const override;
   glm::dvec3 GetIrradianceBound(const Parallelogram&) const override;
+  /// Unit directions whose solid angles are alike if the light is wide (more than 60 degrees), else
+  /// points of the disk whose areas are: that keeps the weights of samples within a factor of two
+  /// of each other but for the receiver's cosine, at every diameter.
   std::vector<LightSample> TakeSamples(const std::vector<glm::dvec2>& pattern) const override;
-  Emission GetEmission() const override { return Emission::Area; }
+  Emission GetEmission() const override
+  {
+    return this->IsWide() ? Emission::Point : Emission::Area;
+  }
   glm::dvec3 GetAxis() const override { return this->Source; }
   std::vector<double> GetKey() const override;
 
 private:
   double GetRadius() const; ///< of the disk at distance 1
+  bool IsWide() const;
+  std::vector<LightSample> TakeDirections(const std::vector<glm::dvec2>& pattern) const;
 
   glm::dvec3 Source{ 0.0, 0.0, 1.0 };
   double AngularDiameter; ///< degrees

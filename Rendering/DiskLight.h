@@ -34,6 +34,10 @@ public:
   void SetFirstAxis(const glm::dvec3& direction);
   const glm::dvec3& GetFirstAxis() const { return this->CutDirection; }
 
+  /// Where a plane has cut the disk: what lies at least so far from the centre along the first axis
+  /// is left, in radii; -1 or less: all of it.
+  double GetCutOffset() const { return this->CutOffset; }
+
   /// The samples go with the map. An affine map that is not a similarity makes an ellipse, for
   /// which a disk of the same area around the same centre is taken.
   DiskLight Transformed(const glm::dmat4& matrix) const;

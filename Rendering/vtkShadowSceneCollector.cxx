@@ -326,7 +326,7 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
       part.Prop = prop;
     });
   if (std::equal(parts.begin(), parts.end(), this->Parts.begin(), this->Parts.end(),
-        [](const Part& a, const Part& b) { return a.Seen == b.Seen; }) ||
+        [](const Part& a, const Part& b) { return a.Seen == b.Seen && a.Prop == b.Prop; }) ||
     (!isAllAtHand && !this->Parts.empty()))
   {
     return false;
@@ -394,7 +394,9 @@ void vtkShadowSceneCollector::Build(
       const auto same = before.find(part.Seen);
       if (same != before.end())
       {
+        const vtkWeakPointer<vtkProp> prop = part.Prop;
         part = *same->second;
+        part.Prop = prop; // another one may have come to the same address, with the same mapper
       }
       else
       {

@@ -450,6 +450,24 @@ TEST(SoftShadowPass, AnisotropyKeepsShadowsSharpAtGrazingAngles)
   EXPECT_EQ(scene.Pass->GetBakeCount(), 1); // how it is shown is not baked
 }
 
+// Another actor of the same mapper, and mostly at the same address, takes the place of a receiver.
+TEST(SoftShadowPass, ShowsAnActorThatComesToAnothersAddress)
+{
+  FloorScene scene;
+  const PassScene::Pixels before = scene.Render();
+  vtkSmartPointer<vtkMapper> mapper = scene.FloorActor->GetMapper();
+  constexpr int Actors = 20;
+  for (int i = 0; i < Actors; ++i)
+  {
+    scene.Renderer->RemoveActor(scene.FloorActor);
+    scene.FloorActor = nullptr;
+    scene.FloorActor = vtkSmartPointer<vtkActor>::New();
+    scene.FloorActor->SetMapper(mapper);
+    scene.Renderer->AddActor(scene.FloorActor);
+    ASSERT_EQ(CountDifferences(scene.Render(), before), 0u) << "actor " << i;
+  }
+}
+
 TEST(SoftShadowPass, SurvivesReleaseOfItsResources)
 {
   FloorScene scene;
