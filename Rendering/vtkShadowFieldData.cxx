@@ -10,6 +10,7 @@
 #include "vtkStringArray.h"
 
 #include <limits>
+#include <type_traits>
 
 vtkStandardNewMacro(vtkShadowFieldData);
 
@@ -54,6 +55,12 @@ void VisitLight(Settings& settings, Visitor&& visit)
   visit("TwoSided", settings.TwoSided);
   visit("AngularDiameter", settings.AngularDiameter);
 }
+
+/// The versions of the settings' arrays: data that carry one of them have settings, whatever of
+/// their arrays is missing or unknown. Files of before have none.
+constexpr const char* ReceiverVersionArray = "ShadowReceiverVersion";
+constexpr const char* LightVersionArray = "AreaLightVersion";
+constexpr int CurrentVersion = 1;
 
 constexpr const char* CastShadowArray = "CastShadow";
 constexpr const char* TransmittanceArray = "Transmittance";
@@ -100,62 +107,89 @@ struct Writer
   }
 };
 
-/// Takes each setting from its array; Complete ends up false if one is missing.
+/// Takes each setting from its array, and leaves the default where there is none. A value that is
+/// no such thing becomes one that no setting allows: NaN, or the least int.
 struct Reader
 {
   vtkFieldData* FieldData;
-  bool Complete = true;
 
-  double Get(const char* name, int component, int components)
+  bool Has(const char* name) const { return this->FieldData->GetAbstractArray(name) != nullptr; }
+
+  double Get(const char* name, int component, int components) const
   {
     vtkDataArray* array = this->FieldData->GetArray(name);
-    if (!array || array->GetNumberOfTuples() < 1 || array->GetNumberOfComponents() != components)
-    {
-      this->Complete = false;
-      return 0.0;
-    }
-    return array->GetComponent(0, component);
+    const bool isFit =
+      array && array->GetNumberOfTuples() >= 1 && array->GetNumberOfComponents() == components;
+    return isFit ? array->GetComponent(0, component) : std::numeric_limits<double>::quiet_NaN();
   }
-  /// What no int holds becomes the least one, which no setting allows but the seed.
-  int GetInt(const char* name)
+  int GetInt(const char* name) const
   {
     using Limits = std::numeric_limits<int>;
     const double value = this->Get(name, 0, 1);
     return value > Limits::min() && value <= Limits::max() ? static_cast<int>(value)
                                                            : Limits::min();
   }
-  void operator()(const char* name, double& value) { value = this->Get(name, 0, 1); }
-  void operator()(const char* name, int& value) { value = this->GetInt(name); }
-  void operator()(const char* name, bool& value) { value = this->Get(name, 0, 1) != 0.0; }
-  void operator()(const char* name, penumbra::ReceiverSide& value)
+
+  template <typename Setting>
+  void operator()(const char* name, Setting& value) const
   {
-    value = static_cast<penumbra::ReceiverSide>(this->GetInt(name));
+    if (this->Has(name))
+    {
+      this->Take(name, value);
+    }
   }
-  void operator()(const char* name, penumbra::ProxyPlaneMode& value)
-  {
-    value = static_cast<penumbra::ProxyPlaneMode>(this->Get(name, 0, 1));
-  }
-  void operator()(const char* name, penumbra::LightKind& value)
-  {
-    value = static_cast<penumbra::LightKind>(this->GetInt(name));
-  }
-  void operator()(const char* name, glm::dvec3& value)
+
+private:
+  void Take(const char* name, double& value) const { value = this->Get(name, 0, 1); }
+  void Take(const char* name, int& value) const { value = this->GetInt(name); }
+  void Take(const char* name, bool& value) const { value = this->Get(name, 0, 1) != 0.0; }
+  void Take(const char* name, glm::dvec3& value) const
   {
     value = { this->Get(name, 0, 3), this->Get(name, 1, 3), this->Get(name, 2, 3) };
   }
+  template <typename Enumeration>
+  void Take(const char* name, Enumeration& value) const
+  {
+    static_assert(std::is_same_v<std::underlying_type_t<Enumeration>, int>, "it holds any int");
+    value = static_cast<Enumeration>(this->GetInt(name));
+  }
 };
+
+/// Whether field data have settings: by their version or, of a file of before, by most of their
+/// arrays.
+template <typename Settings, typename Visit>
+bool HasSettings(vtkFieldData* fieldData, const char* version, Visit&& visitSettings)
+{
+  if (!fieldData)
+  {
+    return false;
+  }
+  Settings settings;
+  int there = 0, all = 0;
+  visitSettings(settings,
+    [&](const char* name, const auto&)
+    {
+      ++all;
+      there += fieldData->GetAbstractArray(name) ? 1 : 0;
+    });
+  return fieldData->GetAbstractArray(version) || 2 * there > all;
+}
 
 } // namespace
 
 void vtkShadowFieldData::Write(const penumbra::ReceiverSettings& settings, vtkFieldData* fieldData)
 {
   fieldData->RemoveArray(RefusalArray);
-  VisitReceiver(settings, Writer{ fieldData });
+  Writer write{ fieldData };
+  write(ReceiverVersionArray, CurrentVersion);
+  VisitReceiver(settings, write);
 }
 
 void vtkShadowFieldData::Write(const penumbra::LightSettings& settings, vtkFieldData* fieldData)
 {
-  VisitLight(settings, Writer{ fieldData });
+  Writer write{ fieldData };
+  write(LightVersionArray, CurrentVersion);
+  VisitLight(settings, write);
 }
 
 void vtkShadowFieldData::Write(const penumbra::CasterSettings& settings, vtkFieldData* fieldData)
@@ -191,6 +225,7 @@ void vtkShadowFieldData::WriteRefusal(const std::string& reason, vtkFieldData* f
 {
   const penumbra::ReceiverSettings settings;
   VisitReceiver(settings, [&](const char* name, const auto&) { fieldData->RemoveArray(name); });
+  fieldData->RemoveArray(ReceiverVersionArray);
   vtkNew<vtkStringArray> array;
   array->SetName(RefusalArray);
   array->InsertNextValue(reason);
@@ -206,24 +241,24 @@ std::string vtkShadowFieldData::ReadRefusal(vtkFieldData* fieldData)
 
 std::optional<penumbra::ReceiverSettings> vtkShadowFieldData::ReadReceiver(vtkFieldData* fieldData)
 {
-  penumbra::ReceiverSettings settings;
-  Reader reader{ fieldData };
-  if (!fieldData)
+  const auto visit = [](auto& settings, auto&& visitor) { VisitReceiver(settings, visitor); };
+  if (!HasSettings<penumbra::ReceiverSettings>(fieldData, ReceiverVersionArray, visit))
   {
     return std::nullopt;
   }
-  VisitReceiver(settings, reader);
-  return reader.Complete ? std::make_optional(settings) : std::nullopt;
+  penumbra::ReceiverSettings settings;
+  VisitReceiver(settings, Reader{ fieldData });
+  return settings;
 }
 
 std::optional<penumbra::LightSettings> vtkShadowFieldData::ReadLight(vtkFieldData* fieldData)
 {
-  penumbra::LightSettings settings;
-  Reader reader{ fieldData };
-  if (!fieldData)
+  const auto visit = [](auto& settings, auto&& visitor) { VisitLight(settings, visitor); };
+  if (!HasSettings<penumbra::LightSettings>(fieldData, LightVersionArray, visit))
   {
     return std::nullopt;
   }
-  VisitLight(settings, reader);
-  return reader.Complete ? std::make_optional(settings) : std::nullopt;
+  penumbra::LightSettings settings;
+  VisitLight(settings, Reader{ fieldData });
+  return settings;
 }

@@ -49,8 +49,10 @@ public:
 
   ///@{
   /**
-   * Read settings; nothing is returned if the field data (which may be nullptr) lacks any of the
-   * arrays. The values are returned as they are: ask them for FindProblem().
+   * Read settings; nothing is returned if the field data (which may be nullptr) have none. They
+   * have if there is an array of their version, or, in files of before, most of their arrays. What
+   * is missing has its default, and unknown arrays are ignored. An array of another type or size
+   * gives a value that is not allowed: ask the settings for FindProblem().
    */
   static std::optional<penumbra::ReceiverSettings> ReadReceiver(vtkFieldData* fieldData);
   static std::optional<penumbra::LightSettings> ReadLight(vtkFieldData* fieldData);
