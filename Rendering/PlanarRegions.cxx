@@ -89,14 +89,17 @@ struct Edge
   int Polygon;
 };
 
-/// The edges of all polygons that have an area; those between the same points stand side by side.
-std::vector<Edge> FindEdges(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas)
+/// The edges of all polygons that have an area and are no copies; those between the same points
+/// stand side by side.
+std::vector<Edge> FindEdges(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, const std::vector<int>& originals)
 {
   std::vector<Edge> edges;
   for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
   {
     const std::vector<int>& polygon = mesh.Polygons[p];
-    for (std::size_t i = 0; i < polygon.size() && glm::length(areas[p]) > 0.0; ++i)
+    const bool counts = glm::length(areas[p]) > 0.0 && originals[p] == static_cast<int>(p);
+    for (std::size_t i = 0; i < polygon.size() && counts; ++i)
     {
       const std::pair<int, int> ends = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
       edges.push_back({ ends, static_cast<int>(p) });
@@ -159,11 +162,42 @@ void VisitNeighbours(const std::vector<Edge>& edges, Visitor&& visit)
   }
 }
 
+/// A polygon's points from the lowest one on, towards the lower neighbour: the same for all copies
+/// of a polygon, wherever they begin and whichever way they go.
+std::vector<int> GetCanonicalOrder(std::vector<int> polygon)
+{
+  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  if (polygon.size() > 2 && polygon.back() < polygon[1])
+  {
+    std::reverse(polygon.begin() + 1, polygon.end());
+  }
+  return polygon;
+}
+
+/// Of each polygon, the first one that it is a copy of: mostly itself. Edges of copies alone would
+/// meet each other in k^2 pairs.
+std::vector<int> FindOriginals(const PolygonMesh& mesh)
+{
+  std::vector<int> originals;
+  std::map<std::vector<int>, int> first;
+  for (const std::vector<int>& polygon : mesh.Polygons)
+  {
+    const int index = static_cast<int>(originals.size());
+    originals.push_back(first.emplace(GetCanonicalOrder(polygon), index).first->second);
+  }
+  return originals;
+}
+
 /// Puts coplanar polygons with a common edge into one set; the answer is empty or what forbids it.
 std::string UniteCoplanarNeighbours(
   const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, DisjointSets& sets)
 {
-  const std::vector<Edge> edges = FindEdges(mesh, areas);
+  const std::vector<int> originals = FindOriginals(mesh);
+  for (std::size_t p = 0; p < originals.size(); ++p)
+  {
+    sets.Unite(originals[p], static_cast<int>(p));
+  }
+  const std::vector<Edge> edges = FindEdges(mesh, areas, originals);
   std::vector<std::pair<int, int>> slivers;
   std::string problem;
   VisitNeighbours(edges,

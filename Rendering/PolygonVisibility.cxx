@@ -382,19 +382,19 @@ PolygonVisibility::Indices PolygonVisibility::FindNear(
     }
     return std::all_of(isInside.begin(), isInside.end(), [](bool inside) { return inside; });
   };
-  Indices near;
+  Indices nearby;
   for (std::uint32_t i = 0; i < this->Triangles.size(); ++i)
   {
     if (mayBlock(this->Triangles[i]))
     {
-      near.push_back(i);
+      nearby.push_back(i);
     }
   }
-  return near;
+  return nearby;
 }
 
 std::optional<double> PolygonVisibility::FindShare(
-  const glm::dvec2& place, const Indices& near) const
+  const glm::dvec2& place, const Indices& nearby) const
 {
   const glm::dvec3 x = this->GetPlace(place);
   View view{ this->Vertices[0] - x, this->AxisX, this->AxisY, {}, 0.0 };
@@ -412,7 +412,7 @@ std::optional<double> PolygonVisibility::FindShare(
     return std::nullopt;
   }
   Pieces pieces(whole);
-  for (const std::uint32_t i : near)
+  for (const std::uint32_t i : nearby)
   {
     const auto& [corners, rounding] = this->Triangles[i];
     const ShadowVolume volume(corners, x);

@@ -56,7 +56,7 @@ public:
    * these has many vertices.
    * @param near FindNear() of a part that holds the point
    */
-  std::optional<double> FindShare(const glm::dvec2& place, const Indices& near) const;
+  std::optional<double> FindShare(const glm::dvec2& place, const Indices& nearby) const;
   static constexpr std::size_t MaximumPieces = 64;
 
 private:

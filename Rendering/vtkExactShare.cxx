@@ -92,8 +92,8 @@ vtkExactShare::Shares vtkExactShare::FindShares(vtkStageTexture* counted,
       const float share = counts[GetIndex(around, texel) * components];
       if (share > 0.0f && share < 1.0f)
       {
-        const penumbra::TexelRectangle near{ texel - margin, texel + margin + 1 };
-        ForEachTexel(near.Intersection(rectangle),
+        const penumbra::TexelRectangle nearby{ texel - margin, texel + margin + 1 };
+        ForEachTexel(nearby.Intersection(rectangle),
           [&](const glm::ivec2& other) { wanted[GetIndex(rectangle, other)] = true; });
       }
     });
@@ -119,7 +119,7 @@ vtkExactShare::Shares vtkExactShare::FindShares(vtkStageTexture* counted,
 void vtkExactShare::FindTile(
   const penumbra::TexelRectangle& tile, const std::vector<bool>& wanted, Shares& shares) const
 {
-  std::optional<penumbra::PolygonVisibility::Indices> near;
+  std::optional<penumbra::PolygonVisibility::Indices> nearby;
   const glm::dvec2 texels(this->Texels);
   ForEachTexel(tile,
     [&](const glm::ivec2& texel)
@@ -129,13 +129,13 @@ void vtkExactShare::FindTile(
       {
         return;
       }
-      if (!near)
+      if (!nearby)
       {
-        near =
+        nearby =
           this->Visibility->FindNear(glm::dvec2(tile.Low) / texels, glm::dvec2(tile.High) / texels);
       }
       const std::optional<double> share =
-        this->Visibility->FindShare((glm::dvec2(texel) + 0.5) / texels, *near);
+        this->Visibility->FindShare((glm::dvec2(texel) + 0.5) / texels, *nearby);
       if (share)
       {
         const double rounded = *share < Rounding ? 0.0 : *share > 1.0 - Rounding ? 1.0 : *share;

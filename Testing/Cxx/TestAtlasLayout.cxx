@@ -225,12 +225,12 @@ TEST(AtlasLayout, KeepsReceiversApart)
   for (int run = 0; run < 60; ++run)
   {
     const AtlasLayout layout(MakeReceivers(random, 2 + run % 9, 1 + 2 * run), LargestSide);
-    Owners near(layout.Size);
+    Owners nearby(layout.Size);
     for (std::size_t r = 0; r < layout.Regions.size(); ++r)
     {
-      AddGrown(layout.Regions[r], 0.5 * layout.Gutter, static_cast<int>(r), near);
+      AddGrown(layout.Regions[r], 0.5 * layout.Gutter, static_cast<int>(r), nearby);
     }
-    ASSERT_FALSE(near.HasShared()) << run;
+    ASSERT_FALSE(nearby.HasShared()) << run;
   }
 }
 

@@ -78,9 +78,9 @@ TEST(BlockingRegion, HasTheSamePlanesInTheWorld)
     for (int i = 0; i < 50; ++i)
     {
       // World coordinates round, so it is the rounded point that both are asked about.
-      const glm::dvec3 near =
+      const glm::dvec3 nearby =
         RandomPointOnRay(random, pair) + random.InBox(std::pow(10.0, random.Between(-8.0, 1.0)));
-      const glm::dvec3 world = pair.Frame.ToWorld(near);
+      const glm::dvec3 world = pair.Frame.ToWorld(nearby);
       const glm::dvec3 p = pair.Frame.ToFrame(world);
       bool isNearInside = false;
       for (int axis = 0; axis < 6; ++axis)

@@ -360,9 +360,9 @@ TEST(ExactLights, PointAgreesWithRays)
     (isBlocked ? hidden : seen) += whole > 0;
     Directional star = scene.Sun;
     star.AngularDiameter = 0;
-    const Vec3 far = scene.X - 1000 * star.Direction;
+    const Vec3 distant = scene.X - 1000 * star.Direction;
     EXPECT_EQ(scene.Exact(star, scene.Blockers),
-      Blocks(scene.Blockers, scene.X, far) ? 0 : scene.Exact(star, {}))
+      Blocks(scene.Blockers, scene.X, distant) ? 0 : scene.Exact(star, {}))
       << "scene " << seed;
   }
   EXPECT_GT(hidden, 200);

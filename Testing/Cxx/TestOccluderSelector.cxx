@@ -228,8 +228,9 @@ TEST(OccluderSelector, CutsWhatIsFar)
     Surface large;
     for (int i = 0; i < 3; ++i)
     {
-      const auto far = [&] { return pair.Frame.ToWorld(random.InBox(1000.0)); };
-      AddTriangle(large, { pair.Frame.ToWorld(RandomPointOnRay(random, pair)), far(), far() });
+      const auto distant = [&] { return pair.Frame.ToWorld(random.InBox(1000.0)); };
+      AddTriangle(
+        large, { pair.Frame.ToWorld(RandomPointOnRay(random, pair)), distant(), distant() });
     }
     const penumbra::ShadowScene scene = MakeScene(pair.Frame, { large });
     OccluderSelector selector;

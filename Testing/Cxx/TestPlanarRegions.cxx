@@ -570,3 +570,35 @@ TEST(PlanarRegions, CoordinatesThatAreNotFiniteAreAProblem)
 }
 
 } // namespace
+
+// Copies of polygons, begun anywhere and wound either way, are of their originals' regions, in time
+// that grows as their number does: all pairs of them would take minutes.
+TEST(PlanarRegions, CopiesBelongToTheRegionsOfTheirOriginals)
+{
+  constexpr std::size_t Copies = 20000;
+  MeshBuilder builder;
+  builder.Add({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
+  builder.Add({ { 1, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 1, 0 } });
+  builder.Add({ { 0, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 }, { 0, 0, 1 } });
+  const std::size_t originals = builder.Mesh.Polygons.size();
+  const PlanarRegions alone = FindPlanarRegions(builder.Mesh);
+  for (std::size_t i = 0; i < Copies; ++i)
+  {
+    Polygon copy = builder.Mesh.Polygons[i % originals];
+    std::rotate(
+      copy.begin(), copy.begin() + static_cast<std::ptrdiff_t>(i % copy.size()), copy.end());
+    if (i % 7 == 0)
+    {
+      std::reverse(copy.begin(), copy.end());
+    }
+    builder.Mesh.Polygons.push_back(copy);
+  }
+  const PlanarRegions regions = FindPlanarRegions(builder.Mesh);
+  ASSERT_EQ(regions.Problem, "");
+  ASSERT_EQ(regions.Regions.size(), alone.Regions.size());
+  for (std::size_t p = 0; p < builder.Mesh.Polygons.size(); ++p)
+  {
+    const std::size_t original = p < originals ? p : (p - originals) % originals;
+    ASSERT_EQ(regions.RegionOfPolygon[p], alone.RegionOfPolygon[original]) << "polygon " << p;
+  }
+}

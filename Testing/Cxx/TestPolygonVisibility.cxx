@@ -208,13 +208,13 @@ TEST(PolygonVisibility, NeedsOnlyWhatIsNear)
       continue;
     }
     const glm::dvec2 low(random.Between(0.0, 0.9), random.Between(0.0, 0.9));
-    const PolygonVisibility::Indices near = scene.Visibility->FindNear(low, low + 0.1);
-    few += near.size();
+    const PolygonVisibility::Indices nearby = scene.Visibility->FindNear(low, low + 0.1);
+    few += nearby.size();
     all += scene.FindAll().size();
     for (int i = 0; i < 10; ++i)
     {
       const glm::dvec2 uv = low + glm::dvec2(random.Between(0.0, 0.1), random.Between(0.0, 0.1));
-      EXPECT_EQ(scene.Visibility->FindShare(uv, near), scene.FindShare(uv)) << seed;
+      EXPECT_EQ(scene.Visibility->FindShare(uv, nearby), scene.FindShare(uv)) << seed;
     }
   }
   EXPECT_GT(few, 0u);
@@ -243,13 +243,14 @@ TEST(PolygonVisibility, NeedsWallsThatStandOnTheBordersOfParts)
       for (int part = 0; part < Parts * Parts; ++part)
       {
         const glm::dvec2 low = glm::dvec2(part % Parts, part / Parts) / double(Parts);
-        const PolygonVisibility::Indices near = scene.Visibility->FindNear(low, low + 1.0 / Parts);
+        const PolygonVisibility::Indices nearby =
+          scene.Visibility->FindNear(low, low + 1.0 / Parts);
         for (int i = 0; i < Points * Points; ++i)
         {
           const glm::dvec2 uv =
             low + (glm::dvec2(i % Points, i / Points) + 0.5) / double(Parts * Points);
           const std::optional<double> share = scene.FindShare(uv);
-          EXPECT_EQ(scene.Visibility->FindShare(uv, near), share) << uv.x << " " << uv.y;
+          EXPECT_EQ(scene.Visibility->FindShare(uv, nearby), share) << uv.x << " " << uv.y;
           shaded += share && *share < 0.9 ? 1 : 0;
         }
       }

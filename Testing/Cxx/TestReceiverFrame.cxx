@@ -230,9 +230,9 @@ TEST(ReceiverFrame, MetricFramePreservesDistancesAndAngles)
     const glm::dvec3 toR = s * (frame.ToMetric(r) - frame.ToMetric(p));
     // Equal inner products are equal lengths and equal angles. Each factor is a difference of
     // points, which are off by roundings of their own size.
-    const double far = glm::length(p) + glm::length(q) + glm::length(r) + 10.0;
-    EXPECT_LE(largest.Add(glm::dot(toQ, toQ) - glm::dot(q - p, q - p), s * far), Tolerance);
-    EXPECT_LE(largest.Add(glm::dot(toQ, toR) - glm::dot(q - p, r - p), s * far), Tolerance);
+    const double distant = glm::length(p) + glm::length(q) + glm::length(r) + 10.0;
+    EXPECT_LE(largest.Add(glm::dot(toQ, toQ) - glm::dot(q - p, q - p), s * distant), Tolerance);
+    EXPECT_LE(largest.Add(glm::dot(toQ, toR) - glm::dot(q - p, r - p), s * distant), Tolerance);
     // Not mirrored, either.
     EXPECT_GT(
       glm::dot(glm::cross(toQ, toR), s * frame.DirectionToMetric(glm::cross(q - p, r - p))), 0.0);
@@ -271,12 +271,12 @@ TEST(ReceiverFrame, FarFromTheOriginIsAsGoodAsNear)
     pyramid.Base = { onLattice(pyramid.Base.Corner), onLattice(pyramid.Base.EdgeX),
       onLattice(pyramid.Base.EdgeY) };
     const glm::dvec3 point = onLattice(random.InBox(10.0));
-    const ReceiverFrame near(pyramid.Base, Side::Front);
-    const ReceiverFrame far(
+    const ReceiverFrame nearby(pyramid.Base, Side::Front);
+    const ReceiverFrame distant(
       { pyramid.Base.Corner + away, pyramid.Base.EdgeX, pyramid.Base.EdgeY }, Side::Front);
-    ASSERT_TRUE(far.IsValid());
-    EXPECT_EQ(near.ToFrame(point), far.ToFrame(point + away)) << seed;
-    EXPECT_EQ(near.ToMetric(point), far.ToMetric(point + away)) << seed;
+    ASSERT_TRUE(distant.IsValid());
+    EXPECT_EQ(nearby.ToFrame(point), distant.ToFrame(point + away)) << seed;
+    EXPECT_EQ(nearby.ToMetric(point), distant.ToMetric(point + away)) << seed;
   }
 }
 

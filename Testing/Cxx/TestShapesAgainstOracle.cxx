@@ -324,9 +324,9 @@ TEST_P(HardShape, IsExactAwayFromEdges)
     {
       const long double u = (i % Side + 0.5L + rounding * (j % 3 - 1)) / Side;
       const long double v = (i / Side + 0.5L + rounding * (j / 3 - 1)) / Side;
-      const double near = oracle::Radiance(scene.At(u, v), scene.Normal(), scene.Contents)[0];
+      const double nearby = oracle::Radiance(scene.At(u, v), scene.Normal(), scene.Contents)[0];
       // From one corner of the neighbourhood to another, radiance itself changes less than 1e-2.
-      isNearEdge = isNearEdge || std::abs(near - baked) <= 1e-2 * peak;
+      isNearEdge = isNearEdge || std::abs(nearby - baked) <= 1e-2 * peak;
     }
     EXPECT_TRUE(isNearEdge) << "texel " << i % Side << ", " << i / Side;
   }
