@@ -63,6 +63,14 @@ glm::dvec2 FindErrorAndPeak(
   return { std::sqrt(variance / static_cast<double>(texels.Variance.size())), peak };
 }
 
+/// Adds the time since `start` to a light's, when OpenGL has finished. A bake ends with waiting for
+/// that in any case.
+void AddTime(double start, vtkRadianceBaker::PairReport& pair)
+{
+  glFinish();
+  pair.Milliseconds += 1000.0 * (vtkTimerLog::GetUniversalTime() - start);
+}
+
 /// The parts of a rectangle that another one leaves.
 std::vector<penumbra::TexelRectangle> Subtract(
   const penumbra::TexelRectangle& from, const penumbra::TexelRectangle& other)
@@ -364,11 +372,7 @@ bool vtkRadianceBaker::BakeLights(Job& job)
     {
       return false;
     }
-    if (job.Plan.Lights.size() > 1)
-    {
-      glFinish();
-    }
-    job.Result.Pairs[light].Milliseconds = 1000.0 * (vtkTimerLog::GetUniversalTime() - start);
+    AddTime(start, job.Result.Pairs[light]);
   }
   return !hasTolerance || this->RefineLights(job);
 }
@@ -644,10 +648,12 @@ bool vtkRadianceBaker::RefineLights(Job& job)
   bool isDone = true;
   for (const std::size_t light : this->Scene->GetLightOrder())
   {
+    const double start = vtkTimerLog::GetUniversalTime();
     job.Result.Pairs[light].LightSamples = 0;
     isDone = isDone &&
       (hasSamples(job.Plan.Pairs[light]) ? this->RefineLight(job, light, allowedOfLight, scratch)
                                          : this->BakeLight(job, light, 1));
+    AddTime(start, job.Result.Pairs[light]);
   }
   scratch->ReleaseGraphicsResources();
   if (!isDone)

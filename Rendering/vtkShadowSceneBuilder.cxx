@@ -110,7 +110,9 @@ std::vector<int> MergePoints(const std::vector<glm::dvec3>& points)
 }
 
 /// The polygons over the surface's points, of which those at the same place become one.
-penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Surface& surface)
+/// A mirror turns their winding round: fronts stay fronts.
+penumbra::PolygonMesh MakePolygonMesh(
+  vtkPolyData* polygons, const penumbra::Surface& surface, bool isMirrored)
 {
   penumbra::PolygonMesh mesh;
   mesh.Points = surface.Points;
@@ -128,6 +130,10 @@ penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Sur
     for (vtkIdType j = 0; j < cell->GetNumberOfIds(); ++j)
     {
       polygon.push_back(merged[static_cast<std::size_t>(cell->GetId(j))]);
+    }
+    if (isMirrored)
+    {
+      std::reverse(polygon.begin(), polygon.end());
     }
   }
   return mesh;
@@ -411,7 +417,9 @@ void vtkShadowSceneBuilder::AddSurface(vtkPolyData* data, vtkMatrix4x4* matrix,
   TransformPoints(polygons, ToGlm(matrix), surface);
   if (receiver)
   {
-    problem = this->AddReceivers(polygons, receiver->Transformed(ToGlm(matrix)), surface, name);
+    const bool isMirrored = glm::determinant(glm::dmat3(ToGlm(matrix))) < 0.0;
+    problem =
+      this->AddReceivers(polygons, receiver->Transformed(ToGlm(matrix)), surface, isMirrored, name);
   }
   const vtkIdType dropped = DropInfinitePolygons(surface, polygons);
   if (dropped > 0 && problem != penumbra::NotFiniteProblem)
@@ -460,7 +468,7 @@ void vtkShadowSceneBuilder::AddTranslucent(penumbra::Surface surface)
 }
 
 std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
-  const penumbra::ReceiverSettings& settings, const penumbra::Surface& surface,
+  const penumbra::ReceiverSettings& settings, const penumbra::Surface& surface, bool isMirrored,
   const std::string& name)
 {
   std::string problem = settings.FindProblem();
@@ -470,7 +478,7 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   receiver.Settings = settings;
   if (problem.empty())
   {
-    const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface);
+    const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, isMirrored);
     found = penumbra::FindPlanarRegions(mesh);
     if (penumbra::NeedsProxyPlane(mesh, found, settings))
     {
@@ -552,7 +560,7 @@ std::string vtkShadowSceneBuilder::FindReceiverProblem(
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
   penumbra::Surface surface;
   TransformPoints(polygons, glm::dmat4(1.0), surface);
-  const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface);
+  const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, false);
   const penumbra::PlanarRegions found = penumbra::FindPlanarRegions(mesh);
   return penumbra::NeedsProxyPlane(mesh, found, settings)
     ? penumbra::FindProxyPlane(mesh, settings).Problem

@@ -120,7 +120,7 @@ private:
   void AddTranslucent(penumbra::Surface surface);
   /// The answer is empty or the problem that was reported.
   std::string AddReceivers(vtkPolyData* polygons, const penumbra::ReceiverSettings& settings,
-    const penumbra::Surface& surface, const std::string& name);
+    const penumbra::Surface& surface, bool isMirrored, const std::string& name);
   void ReportError(const std::string& message);
   void ReportWarning(const std::string& message);
   bool IsNew(const std::string& message);
