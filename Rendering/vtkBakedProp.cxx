@@ -350,6 +350,10 @@ bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t regio
 
 vtkBakedProp::Outcome vtkBakedProp::Finish(vtkRadianceBaker* baker, double seconds)
 {
+  if (!this->IsTextured)
+  {
+    return Outcome::Unchanged; // it failed before
+  }
   const double until = vtkTimerLog::GetUniversalTime() + seconds;
   if (seconds <= 0.0)
   {
@@ -528,6 +532,7 @@ void vtkBakedProp::ReleaseGraphicsResources()
   for (Entry& entry : this->Entries)
   {
     ReleaseKept(entry);
+    entry.Draft = {}; // of texels that are gone
   }
   this->Texture->ReleaseGraphicsResources();
   this->IsTextured = false;

@@ -63,7 +63,16 @@ void SetProjections(
 } // namespace
 
 vtkVisibilityMask::vtkVisibilityMask() = default;
-vtkVisibilityMask::~vtkVisibilityMask() = default;
+vtkVisibilityMask::~vtkVisibilityMask()
+{
+  // Masks that are drawn little by little go with their prop, whatever context is current then.
+  if (this->Window && (this->Texture != 0 || this->Framebuffer != 0))
+  {
+    this->Window->PushContext();
+    this->ReleaseGraphicsResources();
+    this->Window->PopContext();
+  }
+}
 
 int vtkVisibilityMask::GetMaximumSamples(vtkOpenGLRenderWindow* window, std::size_t sets)
 {

@@ -416,6 +416,105 @@ TEST(StabilityFault, ViewIsPlainWithoutAShader)
   }
 }
 
+namespace
+{
+
+/// Draws frames until nothing is a draft any more, or for a bounded number of them.
+PassScene::Pixels RenderUntilFinal(FloorScene& scene)
+{
+  constexpr int MostFrames = 1000;
+  PassScene::Pixels pixels = scene.Render();
+  for (int i = 0; i < MostFrames && scene.Pass->GetBakeProgress() < 1.0; ++i)
+  {
+    pixels = scene.Render();
+  }
+  return pixels;
+}
+
+/// A view whose draft has been drawn: the next frames are batches of a bake.
+void DrawDraft(FloorScene& scene)
+{
+  scene.Receiver->SetTexelSize(4.0 / 24);
+  scene.Pass->SetBakeMode(vtkSoftShadowPass::PROGRESSIVE);
+  scene.Pass->SetBatchSeconds(1e-3); // several frames
+  scene.Render();
+}
+
+} // namespace
+
+// Whatever call of a batch is refused, the frames after it are plain or go on, and when the
+// receiver is touched they are those of a view that never met a fault.
+TEST(StabilityFault, BatchesSurviveTheRefusalOfAnyCall)
+{
+  FloorScene untouched;
+  DrawDraft(untouched);
+  const PassScene::Pixels good = RenderUntilFinal(untouched);
+  for (const OpenGLCall::Kind kind :
+    { OpenGLCall::Texture, OpenGLCall::Buffer, OpenGLCall::TextureBuffer, OpenGLCall::Mipmaps })
+  {
+    constexpr int MostCalls = 6; // those of a batch recur
+    for (int refused = 0; refused < MostCalls; ++refused)
+    {
+      FloorScene scene;
+      DrawDraft(scene);
+      ASSERT_LT(scene.Pass->GetBakeProgress(), 1.0);
+      int count = 0;
+      {
+        const Messages messages;
+        const OpenGLRefusal refusal(
+          [&](const OpenGLCall& call) { return call.What == kind && call.Index == refused; });
+        RenderUntilFinal(scene);
+        count = refusal.GetCount();
+        EXPECT_LE(messages.Count("ERROR"), 1) << messages.GetText();
+      }
+      EXPECT_EQ(scene.Pass->GetBakeProgress(), 1.0) << "kind " << kind << ", call " << refused;
+      scene.Receiver->Modified();
+      EXPECT_EQ(CountDifferences(RenderUntilFinal(scene), good), 0u)
+        << "kind " << kind << ", after call " << refused;
+      if (count == 0)
+      {
+        break;
+      }
+    }
+  }
+}
+
+// Masks of a tile that is half drawn go with their prop.
+TEST(StabilityFault, APropThatGoesInATileLeavesNoNames)
+{
+  FloorScene scene;
+  DrawDraft(scene);
+  const auto countNames = [&]
+  {
+    scene.Window->MakeCurrent();
+    constexpr GLuint MostNames = 4096;
+    int count = 0;
+    for (GLuint name = 1; name < MostNames; ++name)
+    {
+      count += glIsTexture(name) + glIsFramebuffer(name);
+    }
+    return count;
+  };
+  const auto drawAndRemove = [&]
+  {
+    scene.Receiver->SetSeed(scene.Receiver->GetSeed() + 1);
+    scene.Render();
+    scene.Render(); // a batch has begun
+    EXPECT_LT(scene.Pass->GetBakeProgress(), 1.0);
+    scene.Renderer->RemoveActor(scene.FloorActor);
+    scene.Render();
+    scene.Renderer->AddActor(scene.FloorActor);
+  };
+  drawAndRemove();
+  const int before = countNames();
+  constexpr int Times = 5;
+  for (int i = 0; i < Times; ++i)
+  {
+    drawAndRemove();
+  }
+  EXPECT_EQ(countNames(), before);
+}
+
 // Of two receivers, the one whose textures are refused is left out, and the other one is as ever.
 TEST(StabilityFault, MapLeavesOutTheReceiverThatIsRefused)
 {
