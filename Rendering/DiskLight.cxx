@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DiskLight.h"
 
+#include "EllipseCone.h"
+
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -14,6 +16,10 @@ namespace
 {
 
 constexpr double Pi = glm::pi<double>();
+
+/// Semi-axes whose squares differ by less than this share of their sum are a circle's: some
+/// hundreds of roundings, what a product of several rotations comes to.
+constexpr double Roundness = 1e-13;
 
 /// Of the unit disk, the area on the side x >= c of a chord: angle - sine cosine of half its arc.
 double SegmentArea(double c)
@@ -138,40 +144,76 @@ DiskLight::DiskLight(const glm::dvec3& centre, const glm::dvec3& normal, double 
   {
     this->Normal = normal / length;
     this->Radius = radius;
-    this->CutDirection = FindAcross(this->Normal);
+    this->Axis = FindAcross(this->Normal);
   }
 }
 
 void DiskLight::SetFirstAxis(const glm::dvec3& direction)
 {
-  this->CutDirection = NormalizeAcross(direction, this->Normal, this->CutDirection);
+  this->Axis = NormalizeAcross(direction, this->Normal, this->Axis);
+}
+
+glm::dvec3 DiskLight::FromUnitDisk(const glm::dvec2& p) const
+{
+  const double x = this->Turn.x * p.x - this->Turn.y * p.y;
+  const double y = this->Turn.y * p.x + this->Turn.x * p.y;
+  return x * this->Axis + this->Ratio * y * glm::cross(this->Normal, this->Axis);
 }
 
 std::vector<glm::dvec3> DiskLight::GetRim(int count) const
 {
-  const glm::dvec3 y = glm::cross(this->Normal, this->CutDirection);
   std::vector<glm::dvec3> rim;
   for (int i = 0; i < count; ++i)
   {
     const double angle = 2.0 * Pi * i / count;
     rim.push_back(
-      this->Centre + this->Radius * (std::cos(angle) * this->CutDirection + std::sin(angle) * y));
+      this->Centre + this->Radius * this->FromUnitDisk({ std::cos(angle), std::sin(angle) }));
   }
   return rim;
+}
+
+void DiskLight::Stretch(const glm::dvec3& x, const glm::dvec3& y)
+{
+  const double area = glm::length(glm::cross(x, y));
+  // The squares of the semi-axes, as a sum and a difference.
+  const double sum = glm::dot(x, x) + glm::dot(y, y);
+  const double along = glm::dot(x - y, x + y), across = 2.0 * glm::dot(x, y);
+  const double difference = std::hypot(along, across);
+  if (difference <= Roundness * sum)
+  {
+    return;
+  }
+  const double both = std::sqrt(sum + 2.0 * area); // the sum of the semi-axes
+  const double longer = 0.5 * (both + difference / both);
+  const double angle = 0.5 * std::atan2(across, along);
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  this->Axis = glm::normalize(cosine * x + sine * y);
+  this->Normal = NormalizeAcross(
+    glm::cross(this->Axis, cosine * y - sine * x), this->Axis, FindAcross(this->Axis));
+  this->Turn = { cosine, -sine };
+  this->Ratio = area / (longer * longer);
+  // What spans no more than the rounding of both products lies on a line.
+  const bool isFlat = area <= 4.0 * std::numeric_limits<double>::epsilon() * sum;
+  this->Radius = isFlat ? 0.0 : longer;
 }
 
 DiskLight DiskLight::Transformed(const glm::dmat4& matrix) const
 {
   const glm::dmat3 linear(matrix);
-  const glm::dvec3 x = linear * this->CutDirection;
-  const glm::dvec3 y = linear * glm::cross(this->Normal, this->CutDirection);
   // Where a mirror turns x and y round, the normal goes with the surface.
-  const glm::dvec3 area = glm::cross(x, y) * (glm::determinant(linear) < 0.0 ? -1.0 : 1.0);
+  const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+  const glm::dvec3 x = linear * this->FromUnitDisk({ 1.0, 0.0 });
+  const glm::dvec3 y = side * (linear * this->FromUnitDisk({ 0.0, 1.0 }));
+  const glm::dvec3 area = glm::cross(x, y);
   DiskLight result(glm::dvec3(matrix * glm::dvec4(this->Centre, 1.0)), area,
     this->Radius * std::sqrt(glm::length(area)));
   result.SetFirstAxis(x);
   result.Radiance = this->Radiance;
   result.TwoSided = this->TwoSided;
+  if (result.IsValid())
+  {
+    result.Stretch(this->Radius * x, this->Radius * y);
+  }
   return result;
 }
 
@@ -180,7 +222,11 @@ DiskLight DiskLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& n
   DiskLight result = *this;
   const double height = glm::dot(this->Centre - point, normal);
   const glm::dvec3 across = normal - glm::dot(normal, this->Normal) * this->Normal;
-  const double reach = this->Radius * glm::length(across); // of the heights around the centre's
+  // The heights of both semi-axes of an ellipse, in radii.
+  const glm::dvec2 slope(glm::dot(normal, this->Axis),
+    this->Ratio * glm::dot(normal, glm::cross(this->Normal, this->Axis)));
+  // Of the heights around the centre's.
+  const double reach = this->Radius * (this->IsCircle() ? glm::length(across) : glm::length(slope));
   // As of a polygon: what is no higher than the rounding of the coordinates lies in the plane.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() *
     (std::max(glm::length(point), glm::length(this->Centre)) + this->Radius);
@@ -190,8 +236,15 @@ DiskLight DiskLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& n
   }
   else if (height < reach && reach > rounding)
   {
-    result.CutDirection = glm::normalize(across);
     result.CutOffset = -height / reach;
+    if (this->IsCircle())
+    {
+      result.Axis = glm::normalize(across);
+    }
+    else
+    {
+      result.Turn = glm::normalize(slope);
+    }
   }
   return result;
 }
@@ -208,8 +261,7 @@ glm::dvec3 DiskLight::Sample(const glm::dvec2& s) const
     p.x = std::clamp(ChordOfArea(s.x * SegmentArea(this->CutOffset)), this->CutOffset, 1.0);
     p.y = (2.0 * s.y - 1.0) * std::sqrt(std::max(1.0 - p.x * p.x, 0.0));
   }
-  return this->Centre +
-    this->Radius * (p.x * this->CutDirection + p.y * glm::cross(this->Normal, this->CutDirection));
+  return this->Centre + this->Radius * this->FromUnitDisk(p);
 }
 
 bool DiskLight::Faces(const glm::dvec3& point) const
@@ -220,7 +272,7 @@ bool DiskLight::Faces(const glm::dvec3& point) const
 
 LightHull DiskLight::GetHull() const
 {
-  // Around the circle, an octagon.
+  // Around the outline, an octagon.
   DiskLight around = *this;
   around.Radius = this->Radius / std::cos(Pi / 8.0);
   return { around.GetRim(8), false };
@@ -233,13 +285,31 @@ double DiskLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) cons
   {
     return 0.0;
   }
+  return std::clamp(
+    this->IsCircle() ? seen.FormFactorOfCircle(x, normal) : seen.FormFactorOfEllipse(x, normal),
+    0.0, 1.0);
+}
+
+double DiskLight::FormFactorOfEllipse(const glm::dvec3& x, const glm::dvec3& normal) const
+{
+  // Along the semi-axes, and away from x.
+  const glm::dvec3 d = this->Centre - x;
+  const glm::dvec3 side = glm::dot(d, this->Normal) > 0.0 ? this->Normal : -this->Normal;
+  const glm::dmat3 axes(this->Axis, glm::cross(side, this->Axis), side);
+  const EllipseCone cone(d * axes, this->Radius, this->Ratio * this->Radius);
+  return this->CutOffset <= -1.0 ? cone.GetFormFactor(normal * axes)
+                                 : cone.GetFormFactorAboveHorizon(normal * axes);
+}
+
+double DiskLight::FormFactorOfCircle(const glm::dvec3& x, const glm::dvec3& normal) const
+{
   const glm::dvec3 d = this->Centre - x;
   const double r = this->Radius;
   const double h = std::abs(glm::dot(d, this->Normal));
   const glm::dvec3 side = glm::dot(d, this->Normal) > 0.0 ? this->Normal : -this->Normal;
   const glm::dvec3 inPlane = d - h * side;
   const double rho = glm::length(inPlane);
-  if (seen.CutOffset <= -1.0)
+  if (this->CutOffset <= -1.0)
   {
     const double q = rho * rho + h * h - r * r;
     const double root = std::hypot(q, 2.0 * h * r);
@@ -249,16 +319,14 @@ double DiskLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) cons
     const double across =
       2.0 * h * rho * r * r / (root * (rho * rho + h * h + r * r + root)); // towards the centre
     const glm::dvec3 towards = rho > 0.0 ? inPlane / rho : glm::dvec3(0.0);
-    return std::clamp(
-      glm::dot(normal, along * side) + glm::dot(normal, across * towards), 0.0, 1.0);
+    return glm::dot(normal, along * side) + glm::dot(normal, across * towards);
   }
 
   // In the disk's plane: the first axis from the centre to x, the third away from x.
-  const glm::dvec3 e1 = NormalizeAcross(-inPlane, side, seen.CutDirection);
+  const glm::dvec3 e1 = NormalizeAcross(-inPlane, side, this->Axis);
   const glm::dvec3 e2 = glm::cross(side, e1);
-  const double middle =
-    std::atan2(glm::dot(seen.CutDirection, e2), glm::dot(seen.CutDirection, e1));
-  const double half = std::acos(std::clamp(seen.CutOffset, -1.0, 1.0));
+  const double middle = std::atan2(glm::dot(this->Axis, e2), glm::dot(this->Axis, e1));
+  const double half = std::acos(std::clamp(this->CutOffset, -1.0, 1.0));
   const glm::dvec3 arc = IntegrateArc(rho, h, r, middle - half, middle + half);
   const glm::dvec3 world = arc.x * e1 + arc.y * e2 + arc.z * side;
   const auto onRim = [&](double t) { return d + r * (std::cos(t) * e1 + std::sin(t) * e2); };
@@ -267,19 +335,27 @@ double DiskLight::FormFactor(const glm::dvec3& x, const glm::dvec3& normal) cons
   const double sine = glm::length(c);
   const glm::dvec3 chord =
     sine > 0.0 ? std::atan2(sine, glm::dot(a, b)) / sine * c : glm::dvec3(0.0);
-  return std::clamp(glm::dot(normal, world + chord) / (2.0 * Pi), 0.0, 1.0);
+  return glm::dot(normal, world + chord) / (2.0 * Pi);
 }
 
 double DiskLight::GetMeasure() const
 {
-  return this->Radius * this->Radius * SegmentArea(this->CutOffset);
+  return this->Radius * this->Radius * this->Ratio * SegmentArea(this->CutOffset);
 }
 
 double DiskLight::GetSolidAngleBound(const Parallelogram& receiver) const
 {
-  const glm::dvec3 reach =
-    this->Radius * glm::sqrt(glm::max(1.0 - this->Normal * this->Normal, glm::dvec3(0.0)));
+  const glm::dvec3 major = this->Axis;
+  const glm::dvec3 minor = this->Ratio * glm::cross(this->Normal, this->Axis);
+  const glm::dvec3 reach = this->Radius * glm::sqrt(major * major + minor * minor);
   return BoundSolidAngle(this->GetMeasure(), this->Centre - reach, this->Centre + reach, receiver);
+}
+
+double DiskLight::GetAspect() const
+{
+  return this->IsCircle()
+    ? 1.0
+    : glm::length(this->FromUnitDisk({ 1.0, 0.0 })) / glm::length(this->FromUnitDisk({ 0.0, 1.0 }));
 }
 
 std::vector<LightSample> DiskLight::TakeSamples(const std::vector<glm::dvec2>& pattern) const
@@ -297,8 +373,8 @@ std::vector<double> DiskLight::GetKey() const
   std::vector<double> key = this->MakeKey(1);
   key.insert(key.end(),
     { this->Centre.x, this->Centre.y, this->Centre.z, this->Normal.x, this->Normal.y,
-      this->Normal.z, this->Radius, this->CutOffset, this->CutDirection.x, this->CutDirection.y,
-      this->CutDirection.z });
+      this->Normal.z, this->Radius, this->CutOffset, this->Axis.x, this->Axis.y, this->Axis.z,
+      this->Ratio, this->Turn.x, this->Turn.y });
   return key;
 }
 

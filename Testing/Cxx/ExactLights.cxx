@@ -32,6 +32,12 @@ Vec3 Perpendicular(const Vec3& w)
 
 // ---- Disks ----
 
+// A point in the plane of an outline, which is the unit circle there.
+struct Vec2
+{
+  long double X, Y;
+};
+
 // A circle as seen from x: Centre + Radius (cos t U + sin t V), where U x V = W.
 struct Circle
 {
@@ -54,6 +60,42 @@ struct Circle
     const Vec3 u = this->Radius * this->U, v = this->Radius * this->V;
     const Vec3& c = this->Centre;
     return { c - u - v, c + u - v, c + u + v, c - u + v };
+  }
+
+  Vec2 Flatten(const Vec3& p) const
+  {
+    const Vec3 d = p - this->Centre;
+    return { Dot(d, this->U) / this->Radius, Dot(d, this->V) / this->Radius };
+  }
+};
+
+// An ellipse as seen from x: Centre + cos t A + sin t B.
+struct Oval
+{
+  Oval(const Vec3& centre, const Vec3& a, const Vec3& b)
+    : Centre(centre)
+    , A(a)
+    , B(b)
+    , W(Cross(a, b))
+  {
+  }
+
+  Vec3 Centre, A, B;
+  Vec3 W; // along the normal
+
+  // The parallelogram around the ellipse, in the ellipse's sense of rotation.
+  Polygon Square() const
+  {
+    const Vec3& c = this->Centre;
+    return { c - this->A - this->B, c + this->A - this->B, c + this->A + this->B,
+      c - this->A + this->B };
+  }
+
+  Vec2 Flatten(const Vec3& p) const
+  {
+    const Vec3 d = p - this->Centre;
+    const long double w2 = Dot(this->W, this->W);
+    return { Dot(Cross(d, this->B), this->W) / w2, Dot(Cross(this->A, d), this->W) / w2 };
   }
 };
 
@@ -110,30 +152,90 @@ private:
   long double One, Cosine, Sine;
 };
 
-// A point in the circle's plane, with the centre at 0 and the radius 1.
-struct Vec2
+// The same along arcs of an ellipse. With p = c + cos t a + sin t b, p x dp / dt is
+// a x b + cos t (c x b) - sin t (c x a).
+class OvalIntegral
 {
-  long double X, Y;
+public:
+  OvalIntegral(const Oval& oval, const Vec3& n)
+    : Outline(oval)
+    , One(Dot(n, oval.W))
+    , Cosine(Dot(n, Cross(oval.Centre, oval.B)))
+    , Sine(-Dot(n, Cross(oval.Centre, oval.A)))
+  {
+  }
+
+  // From angle t on over an angle of either sign.
+  long double Over(long double t, long double sweep) const
+  {
+    return this->Adapt(t, t + sweep, this->ByGauss(t, t + sweep), MostHalvings);
+  }
+
+private:
+  // The integrand has poles as near to the outline as x is, in parts of its own length. A piece of
+  // the rule gains digits where it is shorter than that: places 2^-40 of the outline away from it.
+  static constexpr int MostHalvings = 40;
+
+  long double At(long double t) const
+  {
+    const long double cosine = std::cos(t), sine = std::sin(t);
+    const Vec3 p = this->Outline.Centre + cosine * this->Outline.A + sine * this->Outline.B;
+    return (this->One + this->Cosine * cosine + this->Sine * sine) / Dot(p, p);
+  }
+
+  // Gauss and Legendre's rule with ten nodes.
+  long double ByGauss(long double low, long double high) const
+  {
+    static constexpr std::array<long double, 5> nodes = { 0.148874338981631210885L,
+      0.433395394129247190799L, 0.679409568299024406234L, 0.865063366688984510732L,
+      0.973906528517171720078L };
+    static constexpr std::array<long double, 5> weights = { 0.295524224714752870174L,
+      0.269266719309996355091L, 0.219086362515982043996L, 0.149451349150580593146L,
+      0.066671344308688137594L };
+    const long double middle = (low + high) / 2, half = (high - low) / 2;
+    long double sum = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      sum += weights[i] * (this->At(middle - half * nodes[i]) + this->At(middle + half * nodes[i]));
+    }
+    return half * sum;
+  }
+
+  long double Adapt(long double low, long double high, long double whole, int halvings) const
+  {
+    const long double middle = (low + high) / 2;
+    const long double left = this->ByGauss(low, middle), right = this->ByGauss(middle, high);
+    // The rule's error falls with the 20th power of the length: both halves' is a millionth of what
+    // they differ from the whole by.
+    constexpr long double agreed = 1e-12L;
+    if (halvings == 0 || std::abs(left + right - whole) <= agreed)
+    {
+      return left + right;
+    }
+    return this->Adapt(low, middle, left, halvings - 1) +
+      this->Adapt(middle, high, right, halvings - 1);
+  }
+
+  Oval Outline;
+  // The integrand's coefficients of 1, cos t and sin t.
+  long double One, Cosine, Sine;
 };
 
-// The arc under an edge outside the circle, as seen from the centre.
-long double ArcBelow(const Vec2& p, const Vec2& q, const ArcIntegral& arcs)
+// The arc under an edge outside the outline, as seen from the centre.
+template <typename Arcs>
+long double ArcBelow(const Vec2& p, const Vec2& q, const Arcs& arcs)
 {
   const long double sweep = std::atan2(p.X * q.Y - p.Y * q.X, p.X * q.X + p.Y * q.Y);
   return arcs.Over(std::atan2(p.Y, p.X), sweep);
 }
 
-// The part of the contour that the edge from p to q makes when its polygon is cut to the circle:
+// The part of the contour that the edge from p to q makes when its polygon is cut to the outline:
 // what is inside stays, what is outside becomes the arc below it.
+template <typename Outline, typename Arcs>
 long double CutEdgeTerm(
-  const Vec3& p, const Vec3& q, const Circle& circle, const Vec3& n, const ArcIntegral& arcs)
+  const Vec3& p, const Vec3& q, const Outline& outline, const Vec3& n, const Arcs& arcs)
 {
-  const auto flat = [&](const Vec3& v)
-  {
-    const Vec3 d = v - circle.Centre;
-    return Vec2{ Dot(d, circle.U) / circle.Radius, Dot(d, circle.V) / circle.Radius };
-  };
-  const Vec2 a = flat(p), b = flat(q);
+  const Vec2 a = outline.Flatten(p), b = outline.Flatten(q);
   const Vec2 d = { b.X - a.X, b.Y - a.Y };
   // |a + s d|^2 = 1.
   const long double dd = d.X * d.X + d.Y * d.Y;
@@ -151,35 +253,41 @@ long double CutEdgeTerm(
   long double sum = EdgeTerm(enter, leave, n);
   if (first > 0)
   {
-    sum += ArcBelow(a, flat(enter), arcs);
+    sum += ArcBelow(a, outline.Flatten(enter), arcs);
   }
   if (last < 1)
   {
-    sum += ArcBelow(flat(leave), b, arcs);
+    sum += ArcBelow(outline.Flatten(leave), b, arcs);
   }
   return sum;
 }
 
-// The projected solid angle over pi of what x sees of a disk above the horizon.
-long double VisibleCircle(const Vec3& x, const Vec3& unitNormal, const Circle& circle, Reach reach,
-  const std::vector<Triangle>& occluders)
+// The projected solid angle over pi of what x sees of a disk or an ellipse above the horizon.
+template <typename Outline, typename Arcs>
+long double VisibleOutline(const Vec3& x, const Vec3& unitNormal, const Outline& outline,
+  const Arcs& arcs, Reach reach, const std::vector<Triangle>& occluders)
 {
-  const Polygon risen = AboveHorizon(circle.Square(), unitNormal);
+  const Polygon risen = AboveHorizon(outline.Square(), unitNormal);
   if (risen.empty())
   {
     return 0;
   }
-  const ArcIntegral arcs(circle, unitNormal);
   const auto cutSum = [&](const Polygon& piece)
   {
     long double sum = 0;
     for (std::size_t i = 0; i < piece.size(); ++i)
     {
-      sum += CutEdgeTerm(piece[i], piece[(i + 1) % piece.size()], circle, unitNormal, arcs);
+      sum += CutEdgeTerm(piece[i], piece[(i + 1) % piece.size()], outline, unitNormal, arcs);
     }
     return sum;
   };
   return std::abs(SumOverVisible(x, risen, reach, occluders, cutSum)) / (2 * Pi);
+}
+
+long double VisibleCircle(const Vec3& x, const Vec3& unitNormal, const Circle& circle, Reach reach,
+  const std::vector<Triangle>& occluders)
+{
+  return VisibleOutline(x, unitNormal, circle, ArcIntegral(circle, unitNormal), reach, occluders);
 }
 
 // ---- Segments ----
@@ -327,6 +435,20 @@ long double VisibleFormFactor(
     return 0;
   }
   return VisibleCircle(x, Unit(n), circle, Reach::ToPolygon, occluders);
+}
+
+long double VisibleFormFactor(
+  const Vec3& x, const Vec3& n, const Ellipse& light, const std::vector<Triangle>& occluders)
+{
+  const Oval oval(light.Centre - x, light.A, light.B);
+  const long double side = -Dot(oval.W, oval.Centre);
+  if (side == 0 || (side < 0 && !light.TwoSided))
+  {
+    return 0;
+  }
+  const Vec3 unitNormal = Unit(n);
+  return VisibleOutline(
+    x, unitNormal, oval, OvalIntegral(oval, unitNormal), Reach::ToPolygon, occluders);
 }
 
 long double VisibleFormFactor(

@@ -4,9 +4,12 @@
  * @file ExactLights.h
  * @brief The exact radiance of a diffuse point under lights of every kind and triangular occluders.
  *
- * The test oracle beyond polygons (ExactRadiance.h). Nothing here is sampled or iterated:
+ * The test oracle beyond polygons (ExactRadiance.h). Nothing here is sampled or iterated, but for
+ * the arcs of ellipses:
  * - A disk and a sun are what is left of a square after clipping, cut to their circle. Its arcs
  *   stay arcs: the contour integral of Lambert's formula has an antiderivative along a circle.
+ * - An ellipse is what is left of a parallelogram, likewise; along its arcs the contour integral is
+ *   taken by Gauss and Legendre's rule, on halves of halves until these agree to rounding.
  * - A segment is a set of intervals, each with the closed form of its irradiance.
  * - A point and a sun of no size are one ray.
  *
@@ -36,6 +39,17 @@ struct Disk
   Vec3 Centre;
   long double Radius;
   Vec3 Normal;
+  bool TwoSided = false;
+  /** r, g, b in W sr^-1 m^-2. */
+  std::array<double, 3> Radiance = { 1.0, 1.0, 1.0 };
+};
+
+/** A diffuse ellipse that emits towards A x B, or to both sides. */
+struct Ellipse
+{
+  Vec3 Centre;
+  /** Conjugate radii: the outline is Centre + cos t A + sin t B. */
+  Vec3 A, B;
   bool TwoSided = false;
   /** r, g, b in W sr^-1 m^-2. */
   std::array<double, 3> Radiance = { 1.0, 1.0, 1.0 };
@@ -74,11 +88,15 @@ struct Surface
   std::vector<Light> Polygons;
 };
 
-using AnyLight = std::variant<Light, Disk, Segment, Point, Directional, Surface>;
+using AnyLight = std::variant<Light, Disk, Segment, Point, Directional, Surface, Ellipse>;
 
 /** The integral of cos t cos t' / (pi r^2) dA' over what is seen of the disk. */
 long double VisibleFormFactor(
   const Vec3& x, const Vec3& n, const Disk& light, const std::vector<Triangle>& occluders);
+
+/** The same of an ellipse. */
+long double VisibleFormFactor(
+  const Vec3& x, const Vec3& n, const Ellipse& light, const std::vector<Triangle>& occluders);
 
 /**
  * 1 / pi times the integral of cos t sin u / r^2 dl over what is seen of the segment, u the angle

@@ -56,6 +56,18 @@ struct LightMaker
     return disk;
   }
 
+  penumbra::Light operator()(const oracle::Ellipse& light) const
+  {
+    penumbra::DiskLight disk(glm::dvec3(0.0), { 0.0, 0.0, 1.0 }, 1.0);
+    disk.SetFirstAxis({ 1.0, 0.0, 0.0 });
+    disk.Radiance = ToColour(light.Radiance);
+    disk.TwoSided = light.TwoSided;
+    const glm::dvec3 a = FromOracle(light.A), b = FromOracle(light.B);
+    return disk.Transformed(
+      { glm::dvec4(a, 0.0), glm::dvec4(b, 0.0), glm::dvec4(glm::normalize(glm::cross(a, b)), 0.0),
+        glm::dvec4(FromOracle(light.Centre), 1.0) });
+  }
+
   penumbra::Light operator()(const oracle::Segment& light) const
   {
     penumbra::SegmentLight segment(FromOracle(light.A), FromOracle(light.B));

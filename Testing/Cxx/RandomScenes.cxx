@@ -270,6 +270,7 @@ struct PlaceOf
 
   Vec3 operator()(const Light& light) const { return light.Vertices[0]; }
   Vec3 operator()(const Disk& light) const { return light.Centre; }
+  Vec3 operator()(const Ellipse& light) const { return light.Centre; }
   Vec3 operator()(const Segment& light) const { return light.A; }
   Vec3 operator()(const Point& light) const { return light.Position; }
   Vec3 operator()(const Surface& light) const { return (*this)(light.Polygons[0]); }

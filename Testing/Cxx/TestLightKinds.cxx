@@ -155,7 +155,7 @@ TEST(DiskLight, KeepsTheSegmentBeyondAChord)
   }
 }
 
-// An ellipse is taken as the disk of its area, around its centre.
+// Along the axes: the area, the centre and the front.
 TEST(DiskLight, StretchedHasTheEllipsesArea)
 {
   penumbra::DiskLight disk({ 1.0, 2.0, 3.0 }, { 0.0, 0.0, 1.0 }, 0.5);
@@ -168,6 +168,188 @@ TEST(DiskLight, StretchedHasTheEllipsesArea)
   EXPECT_NEAR(stretched.GetNormal().z, -1.0, Rounding); // the front goes with the surface
   EXPECT_EQ(stretched.Radiance, disk.Radiance);
   EXPECT_TRUE(stretched.TwoSided);
+}
+
+namespace
+{
+
+// A disk and the ellipse that a map makes of it, which a plane has cut or not: up to a thousand
+// times as long as wide.
+struct RandomEllipse
+{
+  explicit RandomEllipse(RandomGeometry random)
+    : Circle(random.InBox(0.5), random.Direction(), random.Between(0.1, 1.0))
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->Map[i] =
+        glm::dvec4(std::pow(10.0, random.Between(-3.0, 0.0)) * random.Direction(), 0.0);
+    }
+    this->Map[3] = glm::dvec4(random.InBox(2.0), 1.0);
+    this->Whole = this->Circle.Transformed(this->Map);
+    this->Point = this->Whole.Sample({ random.Between(0.0, 1.0), random.Between(0.0, 1.0) });
+    this->Horizon = random.Direction();
+    this->Seen = this->Whole.ClippedToFront(this->Point, this->Horizon);
+  }
+
+  // The plane, taken back to the circle.
+  penumbra::DiskLight CutCircle() const
+  {
+    const glm::dvec3 normal = glm::transpose(glm::dmat3(this->Map)) * this->Horizon;
+    return this->Circle.ClippedToFront(this->TakeBack(this->Point), glm::normalize(normal));
+  }
+  glm::dvec3 TakeBack(const glm::dvec3& p) const
+  {
+    return glm::dvec3(glm::inverse(this->Map) * glm::dvec4(p, 1.0));
+  }
+
+  glm::dmat4 Map{ 1.0 };
+  penumbra::DiskLight Circle;
+  penumbra::DiskLight Whole{ glm::dvec3(0.0), glm::dvec3(0.0), 0.0 };
+  penumbra::DiskLight Seen = this->Whole;
+  glm::dvec3 Point{ 0.0 }, Horizon{ 0.0 }; // of the plane that cuts it
+};
+
+// What inverse maps that shrink lengths a thousandfold along two axes make of rounding.
+constexpr double InverseRounding = 1e6 * Rounding;
+
+} // namespace
+
+// Taken back, all samples of an ellipse are the circle's (a mirror turns them round), and its rim
+// is the circle's.
+TEST(EllipseLight, IsTheMappedDisk)
+{
+  for (unsigned seed = 0; seed < Lights; ++seed)
+  {
+    const RandomEllipse ellipse{ RandomGeometry(seed) };
+    const penumbra::DiskLight& circle = ellipse.Circle;
+    const double turns = glm::determinant(ellipse.Map) < 0.0 ? -1.0 : 1.0;
+    const glm::dvec3 first = circle.GetFirstAxis();
+    for (const glm::dvec2& s : penumbra::GenerateSobol(16, seed, 1.0))
+    {
+      const glm::dvec3 place = ellipse.TakeBack(ellipse.Whole.Sample(s)) - circle.GetCentre();
+      const glm::dvec3 wanted = circle.Sample(s) - circle.GetCentre();
+      const glm::dvec3 across = glm::cross(circle.GetNormal(), first);
+      EXPECT_NEAR(glm::dot(place, first), glm::dot(wanted, first), InverseRounding)
+        << "seed " << seed;
+      EXPECT_NEAR(glm::dot(place, across), turns * glm::dot(wanted, across), InverseRounding)
+        << "seed " << seed;
+    }
+    for (const glm::dvec3& p : ellipse.Whole.GetRim(16))
+    {
+      const glm::dvec3 d = ellipse.TakeBack(p) - circle.GetCentre();
+      EXPECT_NEAR(glm::length(d), circle.GetRadius(), InverseRounding) << "seed " << seed;
+      EXPECT_NEAR(glm::dot(d, circle.GetNormal()), 0.0, InverseRounding) << "seed " << seed;
+    }
+  }
+}
+
+// The front goes with the surface; the semi-axes are those of the rim.
+TEST(EllipseLight, HasTheMapsAxes)
+{
+  for (unsigned seed = 0; seed < Lights; ++seed)
+  {
+    const RandomEllipse ellipse{ RandomGeometry(seed) };
+    const glm::dmat3 toNormals = glm::transpose(glm::inverse(glm::dmat3(ellipse.Map)));
+    const glm::dvec3 normal = glm::normalize(toNormals * ellipse.Circle.GetNormal());
+    EXPECT_NEAR(glm::length(ellipse.Whole.GetNormal() - normal), 0.0, InverseRounding)
+      << "seed " << seed;
+    double longest = 0.0, shortest = std::numeric_limits<double>::infinity();
+    constexpr int count = 1000;
+    for (const glm::dvec3& p : ellipse.Whole.GetRim(count))
+    {
+      const double d = glm::length(p - ellipse.Whole.GetCentre());
+      longest = std::max(longest, d);
+      shortest = std::min(shortest, d);
+    }
+    // Some place of the rim is half of 2 pi / count from the end of an axis, in the unit disk.
+    const double off = Pi / count, radius = ellipse.Whole.GetRadius();
+    EXPECT_LE(longest, radius + Rounding) << "seed " << seed;
+    EXPECT_GE(longest, radius * std::cos(off)) << "seed " << seed;
+    EXPECT_GE(shortest, radius * ellipse.Whole.GetRatio() - Rounding) << "seed " << seed;
+    EXPECT_LE(shortest, radius * (ellipse.Whole.GetRatio() + off)) << "seed " << seed;
+  }
+}
+
+// A plane leaves what it leaves of the circle, and the samples are there, in equal shares of it:
+// all areas that the map stretches are stretched alike (as of disks, above).
+TEST(EllipseLight, IsCutAsTheDisk)
+{
+  int cut = 0;
+  for (unsigned seed = 0; seed < Lights; ++seed)
+  {
+    const RandomEllipse ellipse{ RandomGeometry(seed) };
+    const penumbra::DiskLight circle = ellipse.CutCircle();
+    const double stretch = ellipse.Whole.GetMeasure() / ellipse.Circle.GetMeasure();
+    const double area = ellipse.Seen.GetMeasure();
+    EXPECT_NEAR(area / stretch, circle.GetMeasure(), InverseRounding) << "seed " << seed;
+    cut += circle.GetCutOffset() > -1.0;
+    for (const glm::dvec2& s : penumbra::GenerateSobol(area > 0.0 ? 16 : 0, seed, 1.0))
+    {
+      const glm::dvec3 place = ellipse.Seen.Sample(s);
+      EXPECT_LE(glm::length(ellipse.TakeBack(place) - circle.GetCentre()),
+        circle.GetRadius() + InverseRounding)
+        << "seed " << seed;
+      EXPECT_GE(glm::dot(place - ellipse.Point, ellipse.Horizon), -Rounding) << "seed " << seed;
+    }
+    RandomGeometry random(seed + Lights);
+    constexpr double h = 1e-5;
+    const glm::dvec2 s(random.Between(0.1, 0.9), random.Between(0.1, 0.9));
+    if (area > 0.0)
+    {
+      const glm::dvec3 x =
+        ellipse.Seen.Sample({ s.x + h, s.y }) - ellipse.Seen.Sample({ s.x - h, s.y });
+      const glm::dvec3 y =
+        ellipse.Seen.Sample({ s.x, s.y + h }) - ellipse.Seen.Sample({ s.x, s.y - h });
+      EXPECT_NEAR(
+        glm::length(glm::cross(x, y)) / (4.0 * h * h) / stretch, circle.GetMeasure(), 1e-5)
+        << "seed " << seed;
+    }
+  }
+  EXPECT_GE(cut, Lights / 2);
+}
+
+// The convex hull of the points that a light names holds it: in the plane, taken back to the
+// circle, no side of the octagon passes through the circle.
+TEST(EllipseLight, LiesInItsHull)
+{
+  for (unsigned seed = 0; seed < Lights; ++seed)
+  {
+    const RandomEllipse ellipse{ RandomGeometry(seed) };
+    const glm::dvec3 centre = ellipse.Circle.GetCentre();
+    const std::vector<glm::dvec3> hull = ellipse.Whole.GetHull().Points;
+    for (std::size_t i = 0; i < hull.size(); ++i)
+    {
+      const glm::dvec3 a = ellipse.TakeBack(hull[i]) - centre;
+      const glm::dvec3 b = ellipse.TakeBack(hull[(i + 1) % hull.size()]) - centre;
+      EXPECT_GE(glm::length(glm::cross(a, b)) / glm::length(b - a),
+        ellipse.Circle.GetRadius() - InverseRounding)
+        << "seed " << seed;
+    }
+  }
+}
+
+// A similarity leaves a circle, though its matrix is rounded; a map that flattens leaves nothing.
+TEST(EllipseLight, KnowsCirclesAndLines)
+{
+  for (unsigned seed = 0; seed < Lights; ++seed)
+  {
+    RandomGeometry random(seed);
+    const penumbra::DiskLight disk(random.InBox(0.5), random.Direction(), random.Between(0.1, 1.0));
+    glm::dmat4 similar(1.0);
+    for (int i = 0; i < 5; ++i)
+    {
+      similar = glm::rotate(similar, random.Between(0.0, 2.0 * Pi), random.Direction());
+      similar = glm::scale(similar, glm::dvec3(random.Between(0.5, 2.0)));
+    }
+    EXPECT_EQ(disk.Transformed(similar).GetRatio(), 1.0) << "seed " << seed;
+    // Both radii of a disk across z, and with it the disk's two sides, on one line.
+    glm::dmat4 toLine(1.0);
+    toLine[0] = glm::dvec4(random.Direction(), 0.0);
+    toLine[1] = random.Between(0.1, 2.0) * toLine[0];
+    const penumbra::DiskLight level({ 1.0, 2.0, 3.0 }, { 0.0, 0.0, 1.0 }, 0.5);
+    EXPECT_FALSE(level.Transformed(toLine).IsValid()) << "seed " << seed;
+  }
 }
 
 TEST(DiskLight, KeysTellHalvesApart)

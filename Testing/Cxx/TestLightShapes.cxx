@@ -87,6 +87,26 @@ AnyLight RandomDisk(RandomGeometry& random)
   return disk;
 }
 
+// Of any conjugate radii, some of them nearly a circle's or nearly along a line.
+AnyLight RandomEllipse(RandomGeometry& random)
+{
+  oracle::Ellipse ellipse;
+  ellipse.Centre = ToOracle(Above(random));
+  const glm::dvec3 a = random.Between(0.05, 0.8) * random.Direction();
+  glm::dvec3 b = random.Between(0.05, 0.8) * random.Direction();
+  if (random.Below(3) == 0)
+  {
+    const glm::dvec3 across = glm::normalize(glm::cross(a, b));
+    const double off = std::pow(10.0, random.Between(-6.0, 0.0));
+    b = random.Below(2) == 0 ? glm::cross(across, a) + off * b : a + off * b;
+  }
+  ellipse.A = ToOracle(a);
+  ellipse.B = ToOracle(b);
+  ellipse.TwoSided = random.Below(2) == 0;
+  ellipse.Radiance = RandomColour(random);
+  return ellipse;
+}
+
 AnyLight RandomSegment(RandomGeometry& random)
 {
   const glm::dvec3 a = Above(random);
@@ -131,6 +151,7 @@ void PrintTo(const Kind& kind, std::ostream* os)
 const std::vector<Kind> Kinds{
   { "Polygon", RandomPolygonLight },
   { "Disk", RandomDisk },
+  { "Ellipse", RandomEllipse },
   { "Segment", RandomSegment },
   { "Point", RandomPoint },
   { "Sun", RandomSun },
@@ -165,6 +186,7 @@ struct SizeOf
   double operator()(const oracle::Light& light) const { return Most(light.Radiance); }
   // Terms as large as the radius over the distance come out as its square.
   double operator()(const oracle::Disk& light) const { return Most(light.Radiance); }
+  double operator()(const oracle::Ellipse& light) const { return Most(light.Radiance); }
   double operator()(const oracle::Segment& light) const
   {
     const glm::dvec3 a = FromOracle(light.A);

@@ -109,6 +109,11 @@ std::vector<Case> MakeLights()
     { "DiskCutByThePlane",
       { oracle::Disk{ { 2.5L, 0, 0.3L }, 0.8L, { -1, 0.1L, 0.2L }, false, warm } } },
     { "DiskPartlyBehind", { oracle::Disk{ { 0.3L, 0, 1 }, 0.7L, { -1, 0.1L, 0 }, false, warm } } },
+    { "EllipseOver",
+      { oracle::Ellipse{
+        { 0.2L, 0.1L, 2 }, { 0.9L, 0.2L, 0 }, { 0.2L, -0.3L, 0.1L }, false, warm } } },
+    { "EllipseCutByThePlane",
+      { oracle::Ellipse{ { 2.5L, 0, 0.3L }, { 0, 1, 0.4L }, { 0, -0.1L, 0.7L }, true, warm } } },
     { "SegmentOver", { oracle::Segment{ { -1, -0.3L, 1.5L }, { 0.8L, 0.4L, 1.8L }, warm } } },
     { "SegmentBeside", { oracle::Segment{ { 2.5L, -1, 0.4L }, { 2.4L, 1, 0.7L }, warm } } },
     { "SegmentCutByThePlane", { oracle::Segment{ { 2.5L, 1, -1 }, { 2.2L, 0.5L, 1.5L }, warm } } },
@@ -124,7 +129,7 @@ std::vector<Case> MakeLights()
     { "ManyCorneredPane", { oracle::Surface{ { MakeDodecagon() } } } },
   };
   cases.push_back({ "Several",
-    { cases[0].Lights[0], cases[5].Lights[0], cases[8].Lights[0], wideSun, MakeWindow() } });
+    { cases[0].Lights[0], cases[7].Lights[0], cases[10].Lights[0], wideSun, MakeWindow() } });
   return cases;
 }
 

@@ -312,6 +312,35 @@ def check_display():
         simple.Delete(view)
 
 
+def check_stretched_disk():
+    """A disk shines as the ellipse that its display makes of it: by an unequal scale, and by a shear besides."""
+    floor = make_floor(texel_size=0.5)
+    light = make_lights()["Disk"]
+    centre, first, second = numpy.array((1, 0, 3.0)), numpy.array((0, 1.0, 0)), numpy.array((1.0, 0, 0))
+    node, weight = numpy.polynomial.legendre.leggauss(24)
+    radius, angle = numpy.meshgrid((node + 1) / 2, 2 * numpy.pi * numpy.arange(64) / 64, indexing="ij")
+    disk = centre + (radius * numpy.cos(angle))[..., None] * first + (radius * numpy.sin(angle))[..., None] * second
+    weights = (radius * weight[:, None] / 2 * 2 * numpy.pi / 64).ravel()
+    shear = numpy.array(((1, 0.5, 0), (0.2, 1, 0), (0.3, -0.4, 1)))
+    for name, matrix, displayed in (
+            ("scaled", numpy.diag((3, 1, 0.5)), dict(Scale=[3, 1, 0.5])),
+            ("sheared", shear, dict(UserTransform=numpy.pad(shear, (0, 1)).ravel().tolist()[:15] + [1]))):
+        view = simple.CreateView("RenderView")
+        simple.Show(floor, view)
+        display = simple.Show(light, view)
+        for key, value in displayed.items():
+            setattr(display, key, value)
+        simple.Render(view)
+        (shown,) = texels_of_view(view)
+        (grid,) = bake([floor], [], [light])
+        normal = numpy.cross(matrix @ first, matrix @ second)
+        wanted = surface_integral(
+            cell_centers(grid), disk.reshape(-1, 3) @ matrix.T, weights * numpy.linalg.norm(normal),
+            normal / numpy.linalg.norm(normal)).reshape(-1, 1) * numpy.array(RADIANCE) / numpy.pi
+        checks.at_most(numpy.abs(shown - wanted).max() / wanted.max(), CLOSED_FORM_TOLERANCE, f"{name} Disk: error")
+        simple.Delete(view)
+
+
 def transformed(name, light):
     """The same light with its points turned half around z and lifted by 1."""
     if name == "Surface":
@@ -349,4 +378,4 @@ def radiance_of(light):
 
 checks.run([
     check_disk, check_segment, check_point, check_directional, check_window, check_hard_shadows, check_sun_penumbra,
-    check_two_sided, check_same_texels, check_display, check_radiance_array])
+    check_two_sided, check_same_texels, check_display, check_stretched_disk, check_radiance_array])
