@@ -78,8 +78,8 @@ private:
   /// From the centre, in radii, to the place that a point of the unit disk has: the samples' first
   /// axis is x.
   glm::dvec3 FromUnitDisk(const glm::dvec2& p) const;
-  /// Makes an ellipse of it, around the same centre, with these conjugate radii instead of the unit
-  /// disk's x and y, in radii.
+  /// Makes an ellipse of a circle, around the same centre, with these conjugate radii where the
+  /// unit disk has x and y.
   void Stretch(const glm::dvec3& x, const glm::dvec3& y);
   double FormFactorOfCircle(const glm::dvec3& x, const glm::dvec3& normal) const;
   double FormFactorOfEllipse(const glm::dvec3& x, const glm::dvec3& normal) const;

@@ -447,7 +447,8 @@ vtkSmartPointer<vtkPolyData> MakeGlyphs(vtkMapper* mapper, vtkDataSet* data, std
   if (triangles > MostGlyphTriangles)
   {
     problem = std::to_string(instances.size()) + " glyphs have " +
-      std::to_string(static_cast<long long>(triangles)) + " triangles; allowed: 4000000";
+      std::to_string(static_cast<long long>(triangles)) +
+      " triangles; allowed: 4000000. They cast no shadow";
     return vtkSmartPointer<vtkPolyData>::New();
   }
   return Assemble(shapes, instances, mapper, data);

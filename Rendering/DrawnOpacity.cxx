@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawnOpacity.h"
 
+#include "PolyDataStructure.h"
+#include "PolygonCells.h"
 #include "Vectors.h"
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
@@ -14,10 +16,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkScalarsToColors.h"
-#include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -153,24 +155,9 @@ private:
   std::map<std::pair<double, bool>, vtkSmartPointer<vtkPolyData>> Found;
 };
 
-/// Polygons without strips, lines and vertices; triangles if the opacities are of points.
-vtkSmartPointer<vtkPolyData> MakeDivisible(vtkPolyData* data, bool areOfPoints)
-{
-  if (!areOfPoints && data->GetNumberOfStrips() == 0)
-  {
-    return data;
-  }
-  vtkNew<vtkTriangleFilter> triangulate;
-  triangulate->SetInputData(data);
-  triangulate->PassVertsOff();
-  triangulate->PassLinesOff();
-  triangulate->Update();
-  return triangulate->GetOutput();
-}
-
 /// Whether the opacities are few enough, and the same in all of each polygon, to be taken as they
 /// are.
-bool AreExact(vtkPolyData* data, vtkUnsignedCharArray* opacities, bool areOfPoints)
+bool AreExact(vtkCellArray* polygons, vtkUnsignedCharArray* opacities, bool areOfPoints)
 {
   std::set<unsigned char> distinct;
   for (vtkIdType i = 0; i < opacities->GetNumberOfTuples(); ++i)
@@ -179,9 +166,9 @@ bool AreExact(vtkPolyData* data, vtkUnsignedCharArray* opacities, bool areOfPoin
   }
   bool isExact = distinct.size() <= static_cast<std::size_t>(MostOpacities);
   vtkNew<vtkIdList> cell;
-  for (vtkIdType i = 0; areOfPoints && isExact && i < data->GetNumberOfPolys(); ++i)
+  for (vtkIdType i = 0; areOfPoints && isExact && i < polygons->GetNumberOfCells(); ++i)
   {
-    data->GetPolys()->GetCellAtId(i, cell);
+    polygons->GetCellAtId(i, cell);
     isExact = std::all_of(cell->begin(), cell->end(),
       [&](vtkIdType id) { return opacities->GetValue(id) == opacities->GetValue(cell->GetId(0)); });
   }
@@ -264,38 +251,39 @@ void AppendOpacityState(std::vector<std::uint64_t>& words, vtkMapper* mapper, vt
 
 std::multimap<double, vtkSmartPointer<vtkPolyData>> SplitByOpacity(vtkPolyData* data)
 {
-  vtkDataArray* ofPoints = data->GetPointData()->GetArray(OpacityArray);
-  if (!ofPoints && !data->GetCellData()->GetArray(OpacityArray))
+  auto* ofPoints = vtkUnsignedCharArray::SafeDownCast(data->GetPointData()->GetArray(OpacityArray));
+  auto* ofCells = vtkUnsignedCharArray::SafeDownCast(data->GetCellData()->GetArray(OpacityArray));
+  if ((!ofPoints && !ofCells) || !FindStructureProblem(data).empty())
   {
     return { { 1.0, data } };
   }
-  const vtkSmartPointer<vtkPolyData> polygons = MakeDivisible(data, ofPoints != nullptr);
-  vtkDataSetAttributes* attributes = polygons->GetPointData();
-  if (!ofPoints)
+  vtkNew<vtkIdList> origins, cell;
+  const vtkSmartPointer<vtkCellArray> polygons = JoinStrips(data, origins);
+  const bool isExact = AreExact(polygons, ofPoints ? ofPoints : ofCells, ofPoints != nullptr);
+  OpacityParts parts(data, isExact);
+  for (vtkIdType i = 0; (!ofPoints || isExact) && i < polygons->GetNumberOfCells(); ++i)
   {
-    attributes = polygons->GetCellData();
+    polygons->GetCellAtId(i, cell);
+    if (cell->GetNumberOfIds() > 0)
+    {
+      parts.AddCell(
+        cell, ofPoints ? ofPoints->GetValue(cell->GetId(0)) : ofCells->GetValue(origins->GetId(i)));
+    }
   }
-  auto* opacities = vtkUnsignedCharArray::SafeDownCast(attributes->GetArray(OpacityArray));
-  const bool isExact = AreExact(polygons, opacities, ofPoints != nullptr);
-  OpacityParts parts(polygons, isExact);
-  const vtkIdType firstCell = polygons->GetNumberOfVerts() + polygons->GetNumberOfLines();
-  vtkNew<vtkIdList> cell;
-  for (vtkIdType i = 0; i < polygons->GetNumberOfPolys(); ++i)
+  if (ofPoints && !isExact)
   {
-    polygons->GetPolys()->GetCellAtId(i, cell);
-    if (!ofPoints || isExact)
-    {
-      parts.AddCell(cell, opacities->GetValue(ofPoints ? cell->GetId(0) : firstCell + i));
-      continue;
-    }
-    std::vector<Corner> triangle;
-    for (const vtkIdType id : *cell)
-    {
-      Corner& corner = triangle.emplace_back();
-      polygons->GetPoint(id, &corner.Point.x);
-      corner.Opacity = opacities->GetValue(id);
-    }
-    parts.AddTriangle(triangle);
+    VisitTriangles(polygons, data->GetPoints(),
+      [&](vtkIdType, const std::array<vtkIdType, 3>& ids)
+      {
+        std::vector<Corner> triangle;
+        for (const vtkIdType id : ids)
+        {
+          Corner& corner = triangle.emplace_back();
+          data->GetPoint(id, &corner.Point.x);
+          corner.Opacity = ofPoints->GetValue(id);
+        }
+        parts.AddTriangle(triangle);
+      });
   }
   return parts.Parts;
 }

@@ -4,6 +4,7 @@
 
 #include "DrawnGlyphs.h"
 #include "DrawnOpacity.h"
+#include "DrawnTexture.h"
 #include "ShadowSettings.h"
 #include "vtkActor.h"
 #include "vtkClipPolyData.h"
@@ -14,18 +15,15 @@
 #include "vtkDataSetMapper.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkGlyph3DMapper.h"
-#include "vtkImageData.h"
 #include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkShadowFieldData.h"
-#include "vtkTexture.h"
 
 #include <array>
 #include <cstring>
@@ -205,29 +203,13 @@ void AppendWord(std::vector<std::uint64_t>& words, double value)
   words.push_back(word);
 }
 
-/// Whether a texture has texels that are not opaque: of one or three components and an alpha.
-bool IsCutOut(vtkTexture* texture)
-{
-  vtkImageData* image = texture ? texture->GetInput() : nullptr;
-  vtkDataArray* colours = image ? image->GetPointData()->GetScalars() : nullptr;
-  const int components = colours ? colours->GetNumberOfComponents() : 0;
-  if (components != 2 && components != 4)
-  {
-    return false;
-  }
-  double alpha[2];
-  colours->GetRange(alpha, components - 1);
-  const bool isByte = colours->GetDataType() == VTK_UNSIGNED_CHAR;
-  return alpha[0] < (isByte ? static_cast<double>(VTK_UNSIGNED_CHAR_MAX) : 1.0);
-}
-
 } // namespace
 
 std::string DescribeUnlikeShadow(const DrawnActor& drawn)
 {
-  if (IsCutOut(drawn.Actor->GetTexture()))
+  if (DrawsGlyphs(drawn.Mapper) && HasTransparentTexture(drawn.Actor))
   {
-    return "the transparency of its texture is not looked at: its whole polygons cast shadows";
+    return "the transparency of its texture is not looked at: its whole glyphs cast shadows";
   }
   vtkProperty* property = drawn.Actor->GetProperty();
   bool hasPoints = property->GetRepresentation() == VTK_POINTS;
@@ -250,7 +232,8 @@ std::string DescribeUnlikeShadow(const DrawnActor& drawn)
 
 bool IsDrawnAsItIs(const DrawnActor& drawn)
 {
-  bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0 && !DrawsGlyphs(drawn.Mapper);
+  bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0 && !DrawsGlyphs(drawn.Mapper) &&
+    !HasTransparentTexture(drawn.Actor);
   const double opacity = drawn.Actor->GetProperty()->GetOpacity();
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
@@ -293,11 +276,15 @@ std::vector<DrawnPart> FindDrawnParts(
       {
         polygons = WithOpacities(drawn.Mapper, polygons);
       }
-      for (const auto& [opacity, part] : SplitByOpacity(Clip(polygons, planes)))
+      for (const auto& [alpha, piece] :
+        SplitByTexture(drawn.Actor, Clip(polygons, planes), problem))
       {
-        if (opacity * style.Opacity > 0.0)
+        for (const auto& [opacity, part] : SplitByOpacity(piece))
         {
-          parts.Add(part, opacity * style.Opacity, colour);
+          if (alpha * opacity * style.Opacity > 0.0)
+          {
+            parts.Add(part, alpha * opacity * style.Opacity, colour);
+          }
         }
       }
     });
@@ -313,6 +300,7 @@ void AppendDrawnState(std::vector<std::uint64_t>& words, const DrawnActor& drawn
       AppendWord(words, coefficient);
     }
   }
+  AppendTextureState(words, drawn.Actor);
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
     {

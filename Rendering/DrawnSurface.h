@@ -49,15 +49,15 @@ bool IsDrawnAsItIs(const DrawnActor& drawn);
 /**
  * The polygons that the mapper draws: what its clipping planes leave of its visible blocks, in
  * parts by their opacity and colour. Opacities of cells and points are those of the lookup table or
- * of colours with an alpha (SplitByOpacity). What is wholly transparent is left out. Data with
- * receiver settings stay one part for each block, with the block's opacity, if `mayReceive`. What
- * is drawn but left out is said by `problem`.
+ * of colours with an alpha (SplitByOpacity), times the alpha of the texture (SplitByTexture). What
+ * is wholly transparent is left out. Data with receiver settings stay one part for each block, with
+ * the block's opacity, if `mayReceive`. What is drawn but left out is said by `problem`.
  */
 std::vector<DrawnPart> FindDrawnParts(
   const DrawnActor& drawn, bool mayReceive, std::string& problem);
 
-/// Tells what the actor draws as a solid, or cuts out by its texture, though its shadow does not
-/// show that; empty if there is no such thing.
+/// Tells what the actor draws as a solid, or glyphs that its texture cuts out, though its shadow
+/// does not show that; empty if there is no such thing.
 std::string DescribeUnlikeShadow(const DrawnActor& drawn);
 
 /// Whether mappers like this one draw polygons that can be found.

@@ -430,7 +430,7 @@ void vtkShadowSceneCollector::Build(
           AddDrawn(part.Builder, prop, visited, MayReceive(prop, visited, onlyDesignated), name);
         if (!problem.empty() && this->Said.insert(name + problem).second)
         {
-          vtkWarningMacro("'" << name << "': " << problem << ". They cast no shadow.");
+          vtkWarningMacro("'" << name << "': " << problem << ".");
         }
         part.IsNew = false;
       }

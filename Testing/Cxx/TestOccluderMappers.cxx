@@ -6,6 +6,7 @@
 #include "Messages.h"
 #include "PassScene.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkClipPolyData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
@@ -14,6 +15,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkLineSource.h"
 #include "vtkLookupTable.h"
@@ -44,6 +46,7 @@ using CompositeMapper = vtkCompositePolyDataMapper;
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace
@@ -451,31 +454,270 @@ TEST(OccluderMappers, VolumesAreNamedOnce)
   EXPECT_EQ(messages.Count("volumes cast no shadow"), 1) << messages.GetText();
 }
 
+namespace
+{
+
+/// A texture of some texels a side, white, with alphas of 0 to 255 by column and row.
+vtkSmartPointer<vtkTexture> MakeTexture(int side, const std::function<int(int, int)>& alpha)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(side, side, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int j = 0; j < side; ++j)
+  {
+    for (int i = 0; i < side; ++i)
+    {
+      auto* texel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
+      std::fill_n(texel, 3, static_cast<unsigned char>(255));
+      texel[3] = static_cast<unsigned char>(alpha(i, j));
+    }
+  }
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  return texture;
+}
+
+/// A plate over the floor, in cells, whose texture coordinates go from 0 to `repeats`.
+vtkSmartPointer<vtkPolyData> MakePlate(int cells, double repeats = 1.0)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-1, -1, 1);
+  plane->SetPoint1(1, -1, 1.25);
+  plane->SetPoint2(-1, 1, 1);
+  plane->SetResolution(cells, cells);
+  plane->Update();
+  vtkSmartPointer<vtkPolyData> plate = plane->GetOutput();
+  vtkDataArray* coordinates = plate->GetPointData()->GetTCoords();
+  for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
+  {
+    coordinates->SetComponent(i, 0, repeats * coordinates->GetComponent(i, 0));
+    coordinates->SetComponent(i, 1, repeats * coordinates->GetComponent(i, 1));
+  }
+  return plate;
+}
+
+/// The plate cut by hand into one cell for each place where a texel lies: only those with alpha.
+vtkSmartPointer<vtkPolyData> CutByHand(int cells, const std::function<bool(int, int)>& isThere)
+{
+  const vtkSmartPointer<vtkPolyData> plate = MakePlate(cells);
+  vtkNew<vtkCellArray> kept;
+  vtkNew<vtkIdList> cell;
+  for (int i = 0; i < cells * cells; ++i)
+  {
+    if (isThere(i % cells, i / cells))
+    {
+      plate->GetPolys()->GetCellAtId(i, cell);
+      kept->InsertNextCell(cell);
+    }
+  }
+  plate->SetPolys(kept);
+  plate->GetPointData()->SetTCoords(nullptr);
+  return plate;
+}
+
+std::vector<float> GetTexelsOf(vtkPolyData* data, vtkTexture* texture, double opacity = 1.0)
+{
+  LampScene scene;
+  const vtkSmartPointer<vtkActor> actor = scene.AddMapper(MakeMapper(data));
+  actor->SetTexture(texture);
+  actor->GetProperty()->SetOpacity(opacity);
+  return scene.GetTexels();
+}
+
+/// Points of the same place that are computed otherwise differ by a rounding of floats, and then,
+/// now and then, a sample passes an edge on the other side: it weighs 1/32 of the light, at
+/// most 1.5 times after the filter.
+void ExpectShadowsAlike(const std::vector<float>& found, const std::vector<float>& right)
+{
+  const std::vector<float> lit = GetLit();
+  ExpectSame(found, right, *std::max_element(lit.begin(), lit.end()) / 32 * 1.5f);
+  double differences = 0.0, shadow = 0.0;
+  for (std::size_t i = 0; i < right.size(); ++i)
+  {
+    differences += std::abs(found.at(i) - right[i]);
+    shadow += lit.at(i) - right[i];
+  }
+  EXPECT_GT(shadow, 0.0);
+  EXPECT_LE(differences, 1e-3 * shadow); // such samples are few
+}
+
+} // namespace
+
+// A leaf that its texture cuts out casts the shadow of the leaf, whatever its polygons are, and
+// from the other side, and however the texture is repeated.
+TEST(OccluderMappers, TexturesCutOut)
+{
+  const auto isLeaf = [](int i, int j)
+  { return (i - 7.5) * (i - 7.5) + 3.0 * (j - 6.0) * (j - 6.0) < 40.0; };
+  const vtkSmartPointer<vtkTexture> leaf =
+    MakeTexture(16, [&](int i, int j) { return isLeaf(i, j) ? 255 : 0; });
+  const std::vector<float> right = GetTexelsOf(MakeMapper(CutByHand(16, isLeaf)));
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(1), leaf), right);
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(3), leaf), right);
+  const std::vector<float> twice =
+    GetTexelsOf(MakeMapper(CutByHand(32, [&](int i, int j) { return isLeaf(i % 16, j % 16); })));
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(1, 2.0), leaf), twice);
+  leaf->SetWrap(vtkTexture::MirroredRepeat);
+  const auto mirror = [](int i) { return i < 16 ? i : 31 - i; };
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(1, 2.0), leaf),
+    GetTexelsOf(
+      MakeMapper(CutByHand(32, [&](int i, int j) { return isLeaf(mirror(i), mirror(j)); }))));
+  leaf->SetWrap(vtkTexture::ClampToBorder);
+  leaf->SetBorderColor(0, 0, 0, 0);
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(1, 2.0), leaf),
+    GetTexelsOf(
+      MakeMapper(CutByHand(32, [&](int i, int j) { return i < 16 && j < 16 && isLeaf(i, j); }))));
+}
+
+// Without texture coordinates a texture is not drawn, nor one of three components transparent; an
+// opaque one changes no bit.
+TEST(OccluderMappers, OnlyWhatIsDrawnTransparentIsCutOut)
+{
+  const vtkSmartPointer<vtkTexture> none = MakeTexture(2, [](int, int) { return 0; });
+  const vtkSmartPointer<vtkTexture> opaque = MakeTexture(2, [](int, int) { return 255; });
+  const std::vector<float> whole = GetTexelsOf(MakeMapper(MakePlate(1)));
+  ExpectSame(GetTexelsOf(MakePlate(1), none), GetLit(), 0.0f);
+  ExpectSame(GetTexelsOf(MakePlate(1), opaque), whole, 0.0f);
+  const vtkSmartPointer<vtkPolyData> bare = MakePlate(1);
+  bare->GetPointData()->SetTCoords(nullptr);
+  ExpectSame(GetTexelsOf(bare, none), whole, 0.0f);
+}
+
+// Alphas weaken as an opacity does, exactly where they are few, and times the actor's.
+TEST(OccluderMappers, TexturesWeaken)
+{
+  const vtkSmartPointer<vtkTexture> half = MakeTexture(2, [](int, int) { return 128; });
+  LampScene scene;
+  scene.AddMapper(MakeMapper(MakePlate(1)))->GetProperty()->SetOpacity(128 / 255.0);
+  const std::vector<float> right = scene.GetTexels();
+  ExpectSame(GetTexelsOf(MakePlate(1), half), right, Rounding);
+  const double opacity = 0.25;
+  LampScene product;
+  product.AddMapper(MakeMapper(MakePlate(1)))->GetProperty()->SetOpacity(opacity * 128 / 255);
+  ExpectSame(GetTexelsOf(MakePlate(1), half, opacity), product.GetTexels(), Rounding);
+
+  // A ramp of 52 alphas is rounded to multiples of 1/16, so by 1/32 at most.
+  constexpr int side = 52;
+  const vtkSmartPointer<vtkTexture> ramp = MakeTexture(side, [](int i, int) { return 5 * i; });
+  const vtkSmartPointer<vtkPolyData> columns = MakePlate(side);
+  vtkNew<vtkDoubleArray> values;
+  for (vtkIdType i = 0; i < columns->GetNumberOfCells(); ++i)
+  {
+    const double alpha = 5.0 * static_cast<double>(i % side) / 255;
+    values->InsertNextValue(std::round(16 * alpha) / 16);
+  }
+  columns->GetCellData()->SetScalars(values);
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = MakeMapper(columns);
+  mapper->SetLookupTable(MakeOpacityTable());
+  mapper->UseLookupTableScalarRangeOn();
+  ExpectShadowsAlike(GetTexelsOf(MakePlate(1), ramp), GetTexelsOf(mapper));
+}
+
+// Scalars with an alpha are multiplied by the texture's: at points and at cells.
+TEST(OccluderMappers, TexturesWeakenScalars)
+{
+  const vtkSmartPointer<vtkTexture> half =
+    MakeTexture(2, [](int i, int) { return i == 0 ? 0 : 255; });
+  for (const bool areOfCells : { true, false })
+  {
+    const std::vector<double> values =
+      areOfCells ? std::vector<double>{ 0.2, 0.6 } : std::vector<double>(6, 0.6);
+    const auto makeMapper = [&](vtkPolyData* data)
+    {
+      const vtkSmartPointer<vtkPolyDataMapper> mapper = MakeMapper(data);
+      mapper->SetLookupTable(MakeOpacityTable());
+      mapper->UseLookupTableScalarRangeOn();
+      return mapper;
+    };
+    LampScene found;
+    found.AddMapper(makeMapper(MakePane(values, areOfCells)))->SetTexture(half);
+    const vtkSmartPointer<vtkPolyData> right = MakePane(values, areOfCells);
+    vtkNew<vtkCellArray> second; // the texture leaves the right half, which is the second cell
+    vtkNew<vtkIdList> cell;
+    right->GetPolys()->GetCellAtId(1, cell);
+    second->InsertNextCell(cell);
+    right->SetPolys(second);
+    if (areOfCells)
+    {
+      vtkNew<vtkDoubleArray> value;
+      value->InsertNextValue(values[1]);
+      right->GetCellData()->SetScalars(value);
+    }
+    ExpectShadowsAlike(found.GetTexels(), GetTexelsOf(makeMapper(right)));
+  }
+}
+
+// The base colour of physically based materials, and of nothing else; a turned texture; what
+// changes.
+TEST(OccluderMappers, TexturesAreWhatIsDrawn)
+{
+  const vtkSmartPointer<vtkTexture> left =
+    MakeTexture(2, [](int i, int) { return i == 0 ? 255 : 0; });
+  const std::vector<float> whole = GetTexelsOf(MakeMapper(MakePlate(1)));
+  const std::vector<float> right =
+    GetTexelsOf(MakeMapper(CutByHand(2, [](int i, int) { return i == 0; })));
+  LampScene scene;
+  const vtkSmartPointer<vtkActor> actor = scene.AddMapper(MakeMapper(MakePlate(1)));
+  left->UseSRGBColorSpaceOn(); // VTK takes no other base colours
+  actor->GetProperty()->SetBaseColorTexture(left);
+  ExpectSame(scene.GetTexels(), whole, 0.0f);
+  actor->GetProperty()->SetInterpolationToPBR();
+  ExpectShadowsAlike(scene.GetTexels(), right);
+  actor->GetProperty()->SetInterpolationToGouraud();
+  actor->SetTexture(left);
+  ExpectShadowsAlike(scene.GetTexels(), right);
+  vtkNew<vtkTransform> turn; // u and v change places
+  const double swap[16] = { 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  turn->SetMatrix(swap);
+  left->SetTransform(turn);
+  ExpectShadowsAlike(
+    scene.GetTexels(), GetTexelsOf(MakeMapper(CutByHand(2, [](int, int j) { return j == 0; }))));
+  auto* alpha = vtkUnsignedCharArray::SafeDownCast(left->GetInput()->GetPointData()->GetScalars());
+  alpha->FillComponent(3, 255);
+  alpha->Modified();
+  left->GetInput()->Modified();
+  ExpectSame(scene.GetTexels(), whole, 0.0f);
+}
+
+// A texture that is repeated so often that its texels would be more than four million triangles is
+// taken by larger ones, and that is said once.
+TEST(OccluderMappers, TooFineTexturesAreNamedOnce)
+{
+  const vtkSmartPointer<vtkTexture> checks =
+    MakeTexture(64, [](int i, int j) { return (i + j) % 2 == 0 ? 255 : 0; });
+  LampScene scene;
+  const vtkSmartPointer<vtkActor> actor = scene.AddMapper(MakeMapper(MakePlate(1, 40.0)));
+  actor->SetTexture(checks);
+  const Messages messages;
+  const std::vector<float> found = scene.GetTexels();
+  actor->SetPosition(0.0, 0.0, 0.01);
+  scene.GetTexels();
+  EXPECT_EQ(messages.Count("means of 2 x 2 texels"), 1) << messages.GetText();
+  // Half of all is there: as one sheet of half the opacity.
+  LampScene even;
+  even.AddMapper(MakeMapper(MakePlate(1)))->GetProperty()->SetOpacity(0.5);
+  ExpectSame(found, even.GetTexels(), Rounding);
+}
+
 // What is drawn otherwise than its shadow says is said once for each actor, and of nothing else.
 TEST(OccluderMappers, WhatIsUnlikeItsShadowIsNamedOnce)
 {
   LampScene scene;
-  vtkNew<vtkImageData> leaf;
-  leaf->SetDimensions(2, 2, 1);
-  leaf->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  std::fill_n(
-    static_cast<unsigned char*>(leaf->GetScalarPointer()), 16, static_cast<unsigned char>(255));
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(leaf);
+  const vtkSmartPointer<vtkTexture> leaf = MakeTexture(2, [](int, int) { return 100; });
   vtkNew<vtkPlaneSource> plate;
-  const vtkSmartPointer<vtkActor> textured = scene.Add(plate);
-  textured->SetTexture(texture);
+  scene.Add(plate)->SetTexture(leaf);
   vtkNew<vtkLineSource> line;
   const vtkSmartPointer<vtkActor> tube = scene.Add(line);
   const Messages messages;
   scene.Render();
-  EXPECT_EQ(messages.GetText(), "") << "an opaque texture and plain lines are shown as they cast";
+  EXPECT_EQ(messages.GetText(), "") << "textures and plain lines are shown as they cast";
 
-  static_cast<unsigned char*>(leaf->GetScalarPointer())[3] = 0;
-  leaf->GetPointData()->GetScalars()->Modified();
-  leaf->Modified();
+  // Glyphs that a texture cuts out.
+  vtkNew<vtkGlyph3DMapper> glyphs;
+  glyphs->SetInputConnection(plate->GetOutputPort());
+  glyphs->SetSourceConnection(plate->GetOutputPort());
+  scene.AddMapper(glyphs)->SetTexture(leaf);
   tube->GetProperty()->RenderLinesAsTubesOn();
-  textured->SetPosition(0.0, 0.0, 0.1);
   scene.Render();
   tube->SetPosition(0.0, 0.0, 0.1);
   scene.Render();
