@@ -47,6 +47,7 @@ using CompositeMapper = vtkCompositePolyDataMapper;
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace
@@ -324,6 +325,46 @@ TEST(OccluderMappers, PointsHaveOpacities)
     const double x = 0.75 * (static_cast<double>(i % Side) + 0.5 - Side / 2) * 4.0 / Side;
     const double passes = std::abs(x) < 0.97 ? 0.5 - 0.5 * x : found[i] / lit[i];
     EXPECT_NEAR(found[i] / lit[i], passes, 1.0 / 32 + 1.0 / 255) << "texel " << i % Side;
+  }
+}
+
+// A quad whose edges cross is drawn as two triangles, and weakens as these do, whether the
+// opacities at its points are the same or not.
+TEST(OccluderMappers, CrossingPolygonsHaveOpacities)
+{
+  vtkNew<vtkPoints> points;
+  for (const auto& [x, y] : { std::pair(-1, -1), { 1, 1 }, { 1, -1 }, { -1, 1 } })
+  {
+    points->InsertNextPoint(x, y, 1.0);
+  }
+  vtkNew<vtkCellArray> quad, fan;
+  quad->InsertNextCell({ 0, 1, 2, 3 });
+  fan->InsertNextCell({ 0, 1, 2 });
+  fan->InsertNextCell({ 0, 2, 3 });
+  for (const std::vector<double>& values :
+    { std::vector<double>(4, 0.6), std::vector<double>{ 0.2, 0.6, 1.0, 0.4 } })
+  {
+    std::vector<float> texels[2];
+    for (vtkCellArray* cells : { quad.Get(), fan.Get() })
+    {
+      vtkNew<vtkPolyData> data;
+      data->SetPoints(points);
+      data->SetPolys(cells);
+      vtkNew<vtkDoubleArray> array;
+      for (const double value : values)
+      {
+        array->InsertNextValue(value);
+      }
+      data->GetPointData()->SetScalars(array);
+      const vtkSmartPointer<vtkPolyDataMapper> mapper = MakeMapper(data);
+      mapper->SetLookupTable(MakeOpacityTable());
+      mapper->UseLookupTableScalarRangeOn();
+      texels[cells == quad ? 0 : 1] = GetTexelsOf(mapper);
+    }
+    const std::vector<float> lit = GetLit();
+    EXPECT_LT(
+      texels[1].at(Side / 2 * Side + Side / 2 + 10), lit.at(Side / 2 * Side + Side / 2 + 10));
+    ExpectSame(texels[0], texels[1], Rounding);
   }
 }
 

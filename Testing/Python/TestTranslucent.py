@@ -1,8 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Penumbra contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Translucent displays weaken light, Shadow Caster says how much passes, and what casts no shadow is as if absent."""
+import os
+
 import numpy
 from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 from penumbra_testing import Checks, bake, cell_array, find_pass, make_scene, make_view, picture, texels_of_view
 
@@ -67,6 +72,42 @@ def check_scalars():
     checks.check((found[:, 0] > found[:, 2]).any(), "the tint of a display's own colour")
 
 
+def make_texture(name, alphas):
+    """A white picture whose columns have these alphas, 0 to 255, as a texture."""
+    image = vtkImageData()
+    image.SetDimensions(len(alphas), 2, 1)
+    texels = numpy.full((2, len(alphas), 4), 255, numpy.uint8)
+    texels[:, :, 3] = alphas
+    image.GetPointData().SetScalars(numpy_to_vtk(texels.reshape(-1, 4), deep=1))
+    writer = vtkPNGWriter()
+    writer.SetFileName(os.path.join(os.environ["PENUMBRA_TEST_OUTPUT"], name + ".png"))
+    writer.SetInputData(image)
+    writer.Write()
+    return simple.CreateTexture(writer.GetFileName())
+
+
+def check_texture():
+    """A display casts what its texture's alpha leaves of it, and as much of that."""
+    _, shown = make()
+    shown.occluder.Visibility = 0
+    without = shown_texels(shown)
+    plate = simple.Plane(Origin=[-1, -1, 1], Point1=[1, -1, 1], Point2=[-1, 1, 1])
+    display = simple.Show(plate, shown.view)
+    opaque = shown_texels(shown)
+    checks.check(deviation(opaque, without) > 0.5, "a plate casts a shadow")
+    display.Texture = make_texture("half", [128, 128])
+    wanted = opaque + (1 - 128 / 255) * (without - opaque)
+    checks.at_most(deviation(shown_texels(shown), wanted), ROUNDING, "an alpha of a half")
+    display.Texture = make_texture("left", [255, 0])
+    left = shown_texels(shown)
+    simple.Hide(plate, shown.view)
+    simple.Show(simple.Plane(Origin=[-1, -1, 1], Point1=[0, -1, 1], Point2=[-1, 1, 1]), shown.view)
+    wanted = shown_texels(shown)
+    checks.check(deviation(wanted, opaque) > 0.5, "half a plate casts another shadow")
+    # A sample that passes an edge on the other side by a rounding weighs 1/64, or somewhat more where it is nearer.
+    checks.at_most(deviation(left, wanted), 1.5 / 64, "a plate, half of it cut out")
+
+
 def show_through_caster(scene, shown, **properties):
     """The sphere through a filter, in the sphere's place."""
     caster = simple.ShadowCaster(Input=scene.sphere, **properties)
@@ -127,4 +168,4 @@ def check_receiver():
     checks.equal(find_pass(shown.view).GetNumberOfReceivers(), 2, "receivers")
 
 
-checks.run([check_display, check_scalars, check_caster, check_receiver])
+checks.run([check_display, check_scalars, check_texture, check_caster, check_receiver])
