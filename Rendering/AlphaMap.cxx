@@ -84,9 +84,28 @@ AlphaMap::AlphaMap(const AlphaTexels& texels, int step, int levels)
 {
   this->SetCells(texels, step);
   this->Round(levels);
-  const glm::ivec2 size(this->Lines[0].size() - 1, this->Lines[1].size() - 1);
-  this->Root = this->Build(glm::ivec2(0), size);
+  // Bands of rows or of columns, whichever are fewer rectangles.
+  this->Build(glm::ivec2(0), this->GetSize(), 1);
+  std::vector<Node> ofRows;
+  ofRows.swap(this->Nodes);
+  this->Build(glm::ivec2(0), this->GetSize(), 0);
+  if (ofRows.size() <= this->Nodes.size())
+  {
+    ofRows.swap(this->Nodes);
+  }
   this->FindSides();
+}
+
+glm::ivec2 AlphaMap::GetSize() const
+{
+  return { static_cast<int>(this->Lines[0].size()) - 1,
+    static_cast<int>(this->Lines[1].size()) - 1 };
+}
+
+double AlphaMap::GetCell(const glm::ivec2& at) const
+{
+  return this->Cells[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(this->GetSize().x) +
+    static_cast<std::size_t>(at.x)];
 }
 
 void AlphaMap::SetCells(const AlphaTexels& texels, int step)
@@ -115,47 +134,91 @@ void AlphaMap::SetCells(const AlphaTexels& texels, int step)
 void AlphaMap::Round(int levels)
 {
   const std::set<double> distinct(this->Cells.begin(), this->Cells.end());
-  if (distinct.size() > static_cast<std::size_t>(levels))
+  if (distinct.size() <= static_cast<std::size_t>(levels))
   {
-    for (double& alpha : this->Cells)
+    return;
+  }
+  for (double& alpha : this->Cells)
+  {
+    alpha = std::round(levels * alpha) / levels;
+  }
+  std::vector<double> sharp;
+  sharp.reserve(this->Cells.size());
+  for (glm::ivec2 at(0); at.y < this->GetSize().y; ++at.y)
+  {
+    for (at.x = 0; at.x < this->GetSize().x; ++at.x)
     {
-      alpha = std::round(levels * alpha) / levels;
+      const double alpha = this->GetCell(at);
+      sharp.push_back(alpha > 0.0 && alpha < 1.0 && this->IsEdge(at) ? std::round(alpha) : alpha);
     }
   }
+  this->Cells = sharp;
 }
 
-std::size_t AlphaMap::Build(const glm::ivec2& low, const glm::ivec2& high)
+bool AlphaMap::IsEdge(const glm::ivec2& at) const
 {
+  const glm::ivec2 low = glm::max(at - EdgeWidth, glm::ivec2(0));
+  const glm::ivec2 high = glm::min(at + EdgeWidth + 1, this->GetSize());
+  double least = 1.0, most = 0.0;
+  for (glm::ivec2 near = low; near.y < high.y; ++near.y)
+  {
+    for (near.x = low.x; near.x < high.x; ++near.x)
+    {
+      least = std::min(least, this->GetCell(near));
+      most = std::max(most, this->GetCell(near));
+    }
+  }
+  return least <= 0.0 && most >= 1.0;
+}
+
+std::vector<int> AlphaMap::FindChanges(
+  const glm::ivec2& low, const glm::ivec2& high, int axis) const
+{
+  std::vector<int> changes;
+  glm::ivec2 step(0);
+  step[axis] = 1;
+  for (int i = low[axis] + 1; i < high[axis]; ++i)
+  {
+    glm::ivec2 at = low;
+    at[axis] = i;
+    while (at[1 - axis] < high[1 - axis] && this->GetCell(at) == this->GetCell(at - step))
+    {
+      ++at[1 - axis];
+    }
+    if (at[1 - axis] < high[1 - axis])
+    {
+      changes.push_back(i);
+    }
+  }
+  return changes;
+}
+
+std::size_t AlphaMap::Build(const glm::ivec2& low, const glm::ivec2& high, int bands)
+{
+  const std::size_t index = this->Nodes.size();
   Node node;
   node.Low = low;
   node.High = high;
-  const glm::ivec2 size = high - low;
-  if (size == glm::ivec2(1))
+  node.Alpha = this->GetCell(low);
+  this->Nodes.push_back(node);
+  for (const int axis : { bands, 1 - bands })
   {
-    node.Alpha = this->Cells[static_cast<std::size_t>(low.y) * (this->Lines[0].size() - 1) +
-      static_cast<std::size_t>(low.x)];
-  }
-  else
-  {
-    node.Axis = size.x >= size.y ? 0 : 1;
-    glm::ivec2 middle = high;
-    middle[node.Axis] = (low[node.Axis] + high[node.Axis]) / 2;
-    node.Line =
-      this->Lines[static_cast<std::size_t>(node.Axis)][static_cast<std::size_t>(middle[node.Axis])];
-    node.Children[0] = this->Build(low, middle);
-    middle = low;
-    middle[node.Axis] = (low[node.Axis] + high[node.Axis]) / 2;
-    node.Children[1] = this->Build(middle, high);
-    const Node &below = this->Nodes[node.Children[0]], &above = this->Nodes[node.Children[1]];
-    if (below.Axis < 0 && above.Axis < 0 && below.Alpha == above.Alpha)
+    const std::vector<int> changes = this->FindChanges(low, high, axis);
+    if (!changes.empty())
     {
-      node.Axis = -1;
-      node.Alpha = below.Alpha;
-      this->Nodes.resize(this->Nodes.size() - 2); // they are the last two
+      const int at = changes[changes.size() / 2];
+      glm::ivec2 end = high, begin = low;
+      end[axis] = at;
+      begin[axis] = at;
+      node.Axis = axis;
+      node.Line = this->Lines[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at)];
+      node.Children = { this->Build(low, end, bands), 0 };
+      node.Children[1] = this->Build(begin, high, bands);
+      this->Nodes[index] = node;
+      break;
     }
   }
-  this->Nodes.push_back(node);
-  return this->Nodes.size() - 1;
+  return index;
 }
 
 std::vector<bool> AlphaMap::FindCorners() const
@@ -247,7 +310,7 @@ bool AlphaMap::VisitPieces(const std::array<Corner, 3>& triangle, const Visitor&
   const Polygon polygon(triangle.begin(), triangle.end());
   if (this->Nodes.size() == 1 || this->Period == 0.0)
   {
-    return this->VisitNode(this->Root, polygon, visit);
+    return this->VisitNode(Root, polygon, visit);
   }
   return this->VisitPeriods(polygon, 0, visit);
 }
@@ -268,7 +331,7 @@ bool AlphaMap::VisitPeriods(const Polygon& polygon, int axis, const Visitor& vis
       corner.Place[axis] -= i * this->Period;
     }
     const bool goesOn = part.empty() ||
-      (axis == 0 ? this->VisitPeriods(part, 1, visit) : this->VisitNode(this->Root, part, visit));
+      (axis == 0 ? this->VisitPeriods(part, 1, visit) : this->VisitNode(Root, part, visit));
     if (!goesOn)
     {
       return false;
@@ -295,21 +358,37 @@ AlphaMap::Piece AlphaMap::MakePiece(const Node& rectangle, const Polygon& polygo
 {
   Piece piece;
   piece.Alpha = rectangle.Alpha;
-  Corner middle;
+  std::vector<bool> isBetween;
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const Polygon between = FindBetween(rectangle, a, b);
     piece.Corners.push_back(a);
     piece.Corners.insert(piece.Corners.end(), between.begin(), between.end());
-    middle = Mix(middle, a, 1.0 / static_cast<double>(i + 1));
+    isBetween.push_back(false);
+    isBetween.resize(piece.Corners.size(), true);
   }
-  if (piece.Corners.size() > polygon.size())
+  // A fan about a corner has all triangles if no side that ends there, or goes on there, has
+  // others.
+  const std::size_t count = piece.Corners.size();
+  std::size_t apex = 0;
+  while (apex < count && (isBetween[(apex + 1) % count] || isBetween[(apex + count - 1) % count]))
   {
-    // No fan about a corner has all of these in its outline.
-    piece.Corners.insert(piece.Corners.begin(), middle);
-    piece.IsAround = true;
+    ++apex;
   }
+  piece.IsAround = apex == count;
+  if (!piece.IsAround)
+  {
+    std::rotate(piece.Corners.begin(), piece.Corners.begin() + static_cast<std::ptrdiff_t>(apex),
+      piece.Corners.end());
+    return piece;
+  }
+  Corner middle;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    middle = Mix(middle, polygon[i], 1.0 / static_cast<double>(i + 1));
+  }
+  piece.Corners.insert(piece.Corners.begin(), middle);
   return piece;
 }
 

@@ -37,10 +37,12 @@ struct AlphaTexels
 };
 
 /**
- * The plane of texture coordinates divided into rectangles of one alpha each: whole texels, or the
- * means of some. Rectangles are halved along their longer side until each has one alpha (a k-d
- * tree: Bentley 1975). Alphas are exact if they are few, else rounded to multiples of 1 / levels.
- * How texels are interpolated is not looked at: edges of alpha are right to half a texel.
+ * The plane of texture coordinates divided into rectangles of one alpha each: bands of rows that
+ * are alike (or of columns, if that makes fewer), and runs of one alpha in these. Cells are texels,
+ * or the means of some. Their alphas are exact if they are few, else rounded to multiples of 1 /
+ * levels; then edges that are smoothed over two cells are sharp again: a translucent cell
+ * with both opaque and transparent ones within two cells becomes what it is nearer to. How texels
+ * are interpolated is not looked at: edges of alpha are right to half a cell.
  */
 class PENUMBRARENDERING_EXPORT AlphaMap
 {
@@ -79,6 +81,8 @@ public:
   bool VisitPieces(const std::array<Corner, 3>& triangle, const Visitor& visit) const;
 
 private:
+  static constexpr int EdgeWidth = 2; ///< cells: of an edge that is smoothed
+  static constexpr std::size_t Root = 0;
   using Polygon = std::vector<Corner>;
 
   /// A rectangle, or a line that halves one.
@@ -95,7 +99,13 @@ private:
 
   void SetCells(const AlphaTexels& texels, int step);
   void Round(int levels);
-  std::size_t Build(const glm::ivec2& low, const glm::ivec2& high);
+  glm::ivec2 GetSize() const; ///< the columns and rows of cells
+  double GetCell(const glm::ivec2& at) const;
+  bool IsEdge(const glm::ivec2& at) const;
+  /// Where rows (axis 1) or columns (axis 0) of a rectangle are not those before them.
+  std::vector<int> FindChanges(const glm::ivec2& low, const glm::ivec2& high, int axis) const;
+  /// The first node is that of all cells.
+  std::size_t Build(const glm::ivec2& low, const glm::ivec2& high, int bands);
   std::vector<bool> FindCorners() const;
   void FindSides();
   static void Split(const Polygon& polygon, int axis, double line, Polygon& below, Polygon& above);
@@ -109,7 +119,6 @@ private:
   std::vector<double> Cells;                ///< their alphas
   double Period = 0.0; ///< all repeats at this distance; 0 if the outermost cells go on for ever
   std::vector<Node> Nodes;
-  std::size_t Root = 0;
 };
 
 } // namespace penumbra

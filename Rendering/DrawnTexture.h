@@ -22,7 +22,7 @@ namespace penumbra
 
 /// The most triangles that a texture's alpha may cut the polygons of a data set into: of more of
 /// them, coarser texels are taken.
-constexpr std::size_t MostTexturedTriangles = 4000000;
+constexpr std::size_t MostTexturedTriangles = 1000000;
 
 /// Texels are taken together until there are at most so many along each side of a texture.
 constexpr int MostAlphaTexels = 256;
