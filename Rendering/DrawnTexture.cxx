@@ -14,8 +14,6 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
-#include "vtkInformation.h"
-#include "vtkInformationDoubleVectorKey.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -158,16 +156,12 @@ AlphaTexels ReadAlpha(vtkTexture* texture)
   return texels;
 }
 
-/// The matrix that vtkOpenGLActor applies to texture coordinates; nullptr if there is none.
+/// The matrix that vtkOpenGLActor applies to all texture coordinates; nullptr if there is none.
 const double* GetTextureMatrix(vtkActor* actor)
 {
   vtkTexture* texture = actor->GetTexture();
-  if (texture && texture->GetTransform())
-  {
-    return texture->GetTransform()->GetMatrix()->GetData();
-  }
-  vtkInformation* keys = actor->GetPropertyKeys();
-  return keys ? keys->Get(vtkProp::GeneralTextureTransform()) : nullptr;
+  vtkTransform* transform = texture ? texture->GetTransform() : nullptr;
+  return transform ? transform->GetMatrix()->GetData() : nullptr;
 }
 
 /// Texture coordinates as the shaders have them at each point.
@@ -229,6 +223,14 @@ public:
                            : visitPiece({ 1.0, { triangle.begin(), triangle.end() } }));
       });
     return goesOn;
+  }
+
+  std::size_t Count() const
+  {
+    std::size_t count = 0;
+    VisitTriangles(this->Polygons, this->Data->GetPoints(),
+      [&count](vtkIdType, const std::array<vtkIdType, 3>&) { ++count; });
+    return count;
   }
 
   bool HasPointOpacities() const { return this->OfPoints != nullptr; }
@@ -314,19 +316,20 @@ private:
   bool AreOfPoints;
 };
 
-/// The finest map that cuts the triangles into at most MostTexturedTriangles; `step` becomes the
-/// texels that it takes together.
+/// The finest map that adds at most MostTexturedTriangles; `step` becomes the texels that it takes
+/// together.
 AlphaMap FindMap(const TexturedTriangles& triangles, const AlphaTexels& texels, int& step)
 {
+  const std::size_t most = triangles.Count() + MostTexturedTriangles;
   for (;; step *= 2)
   {
     AlphaMap map(texels, step, MostOpacities);
     std::size_t count = 0;
     const bool isAll = triangles.Visit(map,
-      [&count](const AlphaMap::Piece& piece, double)
+      [&](const AlphaMap::Piece& piece, double)
       {
         count += piece.CountTriangles();
-        return count <= MostTexturedTriangles;
+        return count <= most;
       });
     if (isAll || step >= std::max(texels.Size.x, texels.Size.y))
     {
@@ -380,7 +383,7 @@ std::multimap<double, vtkSmartPointer<vtkPolyData>> SplitByTexture(
   {
     problem = "the alpha of its texture is taken in means of " + std::to_string(step) + " x " +
       std::to_string(step) + " texels: finer ones would cut its polygons into more than " +
-      std::to_string(MostTexturedTriangles) + " triangles";
+      std::to_string(MostTexturedTriangles) + " triangles besides their own";
   }
   std::map<double, TexturedPart> parts;
   triangles.Visit(map,

@@ -20,8 +20,8 @@ class vtkPolyData;
 namespace penumbra
 {
 
-/// The most triangles that a texture's alpha may cut the polygons of a data set into: of more of
-/// them, coarser texels are taken.
+/// The most triangles that a texture's alpha may add to those of a data set: of more of them,
+/// coarser texels are taken.
 constexpr std::size_t MostTexturedTriangles = 1000000;
 
 /// Texels are taken together until there are at most so many along each side of a texture.

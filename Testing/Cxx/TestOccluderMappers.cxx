@@ -584,8 +584,8 @@ void ExpectShadowsAlike(const std::vector<float>& found, const std::vector<float
 
 } // namespace
 
-// A leaf that its texture cuts out casts the shadow of the leaf, whatever its polygons are, and
-// from the other side, and however the texture is repeated.
+// A leaf that its texture cuts out casts the shadow of the leaf, whatever its polygons are, however
+// the texture is repeated, and what a clipping plane leaves of both.
 TEST(OccluderMappers, TexturesCutOut)
 {
   const auto isLeaf = [](int i, int j)
@@ -598,6 +598,15 @@ TEST(OccluderMappers, TexturesCutOut)
   const std::vector<float> twice =
     GetTexelsOf(MakeMapper(CutByHand(32, [&](int i, int j) { return isLeaf(i % 16, j % 16); })));
   ExpectShadowsAlike(GetTexelsOf(MakePlate(1, 2.0), leaf), twice);
+  // What a clipping plane leaves has the texture as before.
+  LampScene clipped;
+  const vtkSmartPointer<vtkPolyDataMapper> half = MakeMapper(MakePlate(1));
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(1, 0, 0);
+  half->AddClippingPlane(plane);
+  clipped.AddMapper(half)->SetTexture(leaf);
+  ExpectShadowsAlike(clipped.GetTexels(),
+    GetTexelsOf(MakeMapper(CutByHand(16, [&](int i, int j) { return i >= 8 && isLeaf(i, j); }))));
   leaf->SetWrap(vtkTexture::MirroredRepeat);
   const auto mirror = [](int i) { return i < 16 ? i : 31 - i; };
   ExpectShadowsAlike(GetTexelsOf(MakePlate(1, 2.0), leaf),
@@ -720,8 +729,8 @@ TEST(OccluderMappers, TexturesAreWhatIsDrawn)
   ExpectSame(scene.GetTexels(), whole, 0.0f);
 }
 
-// A texture that is repeated so often that its texels would be more than four million triangles is
-// taken by larger ones, and that is said once.
+// A texture that is repeated so often that its texels would be millions of triangles is taken by
+// larger ones, and that is said once.
 TEST(OccluderMappers, TooFineTexturesAreNamedOnce)
 {
   const vtkSmartPointer<vtkTexture> checks =
