@@ -160,12 +160,12 @@ bool AlphaMap::IsEdge(const glm::ivec2& at) const
   const glm::ivec2 low = glm::max(at - EdgeWidth, glm::ivec2(0));
   const glm::ivec2 high = glm::min(at + EdgeWidth + 1, this->GetSize());
   double least = 1.0, most = 0.0;
-  for (glm::ivec2 near = low; near.y < high.y; ++near.y)
+  for (glm::ivec2 cell = low; cell.y < high.y; ++cell.y)
   {
-    for (near.x = low.x; near.x < high.x; ++near.x)
+    for (cell.x = low.x; cell.x < high.x; ++cell.x)
     {
-      least = std::min(least, this->GetCell(near));
-      most = std::max(most, this->GetCell(near));
+      least = std::min(least, this->GetCell(cell));
+      most = std::max(most, this->GetCell(cell));
     }
   }
   return least <= 0.0 && most >= 1.0;
@@ -362,14 +362,13 @@ AlphaMap::Piece AlphaMap::MakePiece(const Node& rectangle, const Polygon& polygo
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const Polygon between = FindBetween(rectangle, a, b);
+    const Polygon between = this->FindBetween(rectangle, a, b);
     piece.Corners.push_back(a);
     piece.Corners.insert(piece.Corners.end(), between.begin(), between.end());
     isBetween.push_back(false);
     isBetween.resize(piece.Corners.size(), true);
   }
-  // A fan about a corner has all triangles if no side that ends there, or goes on there, has
-  // others.
+  // A fan about a corner has all triangles if no other corner lies between those of its sides.
   const std::size_t count = piece.Corners.size();
   std::size_t apex = 0;
   while (apex < count && (isBetween[(apex + 1) % count] || isBetween[(apex + count - 1) % count]))

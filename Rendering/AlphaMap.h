@@ -12,6 +12,7 @@
 #include "Vectors.h"
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -39,10 +40,10 @@ struct AlphaTexels
 /**
  * The plane of texture coordinates divided into rectangles of one alpha each: bands of rows that
  * are alike (or of columns, if that makes fewer), and runs of one alpha in these. Cells are texels,
- * or the means of some. Their alphas are exact if they are few, else rounded to multiples of 1 /
- * levels; then edges that are smoothed over two cells are sharp again: a translucent cell
- * with both opaque and transparent ones within two cells becomes what it is nearer to. How texels
- * are interpolated is not looked at: edges of alpha are right to half a cell.
+ * or the means of some. If more than `levels` alphas occur, they are rounded to multiples of
+ * 1 / levels, and edges that are smoothed over two cells become sharp: a translucent cell with both
+ * opaque and transparent ones within two cells becomes what it is nearer to. How texels are
+ * interpolated is not looked at: edges of alpha are right to half a cell.
  */
 class PENUMBRARENDERING_EXPORT AlphaMap
 {

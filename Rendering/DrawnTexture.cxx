@@ -144,14 +144,16 @@ AlphaTexels ReadAlpha(vtkTexture* texture)
   AlphaTexels texels;
   texels.Size = picture.Size;
   texels.Wrap = GetWrap(texture);
-  texels.Border = std::clamp(static_cast<double>(texture->GetBorderColor()[3]), 0.0, 1.0);
+  // What is not a number is transparent.
+  const auto clamp = [](double alpha) { return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0; };
+  texels.Border = clamp(texture->GetBorderColor()[3]);
   const double largest = GetLargestAlpha(colours);
   const vtkIdType count = static_cast<vtkIdType>(picture.Size.x) * picture.Size.y;
   texels.Alpha.reserve(static_cast<std::size_t>(count));
   for (vtkIdType i = 0; i < count; ++i)
   {
     const double alpha = colours->GetComponent(i, colours->GetNumberOfComponents() - 1);
-    texels.Alpha.push_back(std::clamp(alpha / largest, 0.0, 1.0));
+    texels.Alpha.push_back(clamp(alpha / largest));
   }
   return texels;
 }
@@ -210,17 +212,17 @@ public:
           return;
         }
         std::array<AlphaMap::Corner, 3> triangle;
-        bool isFinite = true;
+        bool isInRange = true;
         for (std::size_t i = 0; i < ids.size(); ++i)
         {
           triangle[i] = this->GetCorner(ids[i]);
-          isFinite = isFinite && IsInRange(triangle[i].Place);
+          isInRange = isInRange && IsInRange(triangle[i].Place);
         }
         const double opacity =
           this->OfCells ? this->OfCells->GetComponent(this->Origins->GetId(polygon), 0) : 0.0;
         const auto visitPiece = [&](const AlphaMap::Piece& piece) { return visit(piece, opacity); };
-        goesOn = (isFinite ? map.VisitPieces(triangle, visitPiece)
-                           : visitPiece({ 1.0, { triangle.begin(), triangle.end() } }));
+        goesOn = isInRange ? map.VisitPieces(triangle, visitPiece)
+                           : visitPiece({ 1.0, { triangle.begin(), triangle.end() } });
       });
     return goesOn;
   }

@@ -27,8 +27,8 @@
  * while they are visible, however they are drawn. Occluders are what is drawn as surfaces: actors
  * in wireframe or points, and wholly transparent ones, cast no shadow. Translucent ones weaken
  * light by their opacity o: 1 - o of it passes, tinted by the actor's diffuse colour unless scalars
- * or a texture colour it. An actor weakens a ray once, also where the ray enters and leaves it.
- * What its data say (vtkShadowCaster) goes before that.
+ * or a texture colour it, and by the alpha of a texture. An actor weakens a ray once, also where
+ * the ray enters and leaves it. What its data say (vtkShadowCaster) goes before that.
  *
  * @sa vtkAreaLightSource, vtkShadowReceiver, vtkRadianceMap
  */

@@ -139,7 +139,7 @@ std::vector<Covered> Cut(const AlphaMap& map, const Triangle& triangle)
 
 TEST(AlphaMap, CoversEachPlaceOnceByItsTexel)
 {
-  constexpr double near = 1e-9; // to an edge: not judged
+  constexpr double tooNear = 1e-9; // to an edge: not judged
   int judged = 0;
   for (unsigned seed = 0; seed < Seeds; ++seed)
   {
@@ -157,11 +157,11 @@ TEST(AlphaMap, CoversEachPlaceOnceByItsTexel)
       for (const Covered& piece : pieces)
       {
         const double depth = piece.GetDepth(place);
-        times += depth > near;
-        edges += std::abs(depth) <= near;
-        found = depth > near ? piece.Alpha : found;
+        times += depth > tooNear;
+        edges += std::abs(depth) <= tooNear;
+        found = depth > tooNear ? piece.Alpha : found;
       }
-      if (edges > 0 || std::abs(whole.GetDepth(place)) <= near)
+      if (edges > 0 || std::abs(whole.GetDepth(place)) <= tooNear)
       {
         continue;
       }
