@@ -4,6 +4,7 @@
 
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkRenderWindow.h"
+#include "vtkRenderingOpenGLConfigure.h"
 #include "vtkVersion.h"
 #if PENUMBRA_HEADLESS_WINDOWS
 #include "vtkDynamicLoader.h"
@@ -11,7 +12,7 @@
 #include "vtkObjectFactoryCollection.h"
 #endif
 
-#include <cstdlib>
+#include <cstdlib> // also for setenv(), which POSIX adds
 #include <string>
 
 namespace
@@ -134,6 +135,14 @@ void vtkHeadlessFactory::RegisterIfNoDisplay()
   {
     vtkHeadlessFactory::RegisterWindow(
       "vtkHeadlessEGLRenderWindow", vtkObjectFactoryCreatevtkHeadlessEGLRenderWindow);
+  }
+#elif defined(VTK_USE_X) && defined(VTK_OPENGL_HAS_EGL)
+  // VTK finds EGL by itself, but tries X first and says of each window that there is no X server.
+  const char* display = std::getenv("DISPLAY");
+  if (!display || !*display)
+  {
+    constexpr int keepIfSet = 0;
+    setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", keepIfSet);
   }
 #endif
 }

@@ -18,7 +18,9 @@
  * interactor aborts likewise.
  *
  * VTK 9.4 and later do all that themselves: there this factory overrides nothing,
- * RegisterIfNoDisplay() does nothing, and NewOffScreenWindow() returns what VTK gives.
+ * RegisterIfNoDisplay() names EGL's windows to VTK (by its variable VTK_DEFAULT_OPENGL_WINDOW,
+ * unless that is set), so that no X server is looked for, and NewOffScreenWindow() returns what VTK
+ * gives.
  */
 
 #ifndef vtkHeadlessFactory_h
@@ -49,7 +51,8 @@ public:
 
   /**
    * If IsDisplayMissing(), let vtkRenderWindow::New() return vtkHeadlessEGLRenderWindows from now
-   * on. May be called any number of times.
+   * on; from VTK 9.4 on, VTK's own windows of EGL where DISPLAY is not set. May be called any
+   * number of times.
    */
   static void RegisterIfNoDisplay();
 

@@ -21,7 +21,7 @@ sys.path[:0] = [str(package.parent.parent) for package in BUILD.rglob("penumbra/
 
 import scenes  # from Data
 from demo import load_plugin  # from Plugin
-from penumbra_testing import find_pass  # from Testing/Python
+from penumbra_testing import find_pass, translate  # from Testing/Python
 
 # What the paper tells of its scenes, and the seconds that it took (2 Hz are 0.5 s). It tells no polygons of the table,
 # and texels of the first scene alone: the second is to have as many here.
@@ -64,7 +64,7 @@ def move_occluder(scene, view, frames):
     pv.Render(view)
     shadows, window = find_pass(view), view.GetRenderWindow()
     for frame in range(-WARM_UP_FRAMES, frames):
-        display.Position = [STEP * (frame + WARM_UP_FRAMES + 1), 0, 0]
+        translate(display, [STEP * (frame + WARM_UP_FRAMES + 1), 0, 0])
         before, start = shadows.GetBakeCount(), time.perf_counter()
         pv.Render(view)
         window.WaitForCompletion()

@@ -49,16 +49,20 @@ struct Panes
   {
     penumbra::ShadowScene scene = this->Scene.MakeScene();
     scene.Surfaces.pop_back();
-    for (const auto& [triangles, transmittance] :
-      { std::make_pair(&this->First, first), std::make_pair(&this->Second, second) })
-    {
-      TestScene one = this->Scene;
-      one.Occluders = *triangles;
-      penumbra::Surface surface = *one.MakeScene().Surfaces.back();
-      surface.Transmittance = transmittance;
-      scene.Surfaces.emplace_back(surface);
-    }
+    this->Add(this->First, first, scene);
+    this->Add(this->Second, second, scene);
     return scene;
+  }
+
+  /// Adds triangles to a scene as a surface of what they let through.
+  void Add(const std::vector<oracle::Triangle>& triangles, const glm::dvec3& transmittance,
+    penumbra::ShadowScene& scene) const
+  {
+    TestScene one = this->Scene;
+    one.Occluders = triangles;
+    penumbra::Surface surface = *one.MakeScene().Surfaces.back();
+    surface.Transmittance = transmittance;
+    scene.Surfaces.emplace_back(surface);
   }
 
   /// The scene with opaque plates, one of them or both.

@@ -5,7 +5,7 @@ import numpy
 from paraview import simple
 
 from penumbra_testing import (
-    Checks, Messages, bake, cell_array, cell_centers, form_factor, texels, texels_of_view)
+    Checks, Messages, bake, cell_array, cell_centers, form_factor, texels, texels_of_view, translate)
 
 # Texels are single precision; issue 2 allows 1e-5 of the peak.
 CLOSED_FORM_TOLERANCE = 1e-5
@@ -298,7 +298,7 @@ def check_display():
         view = simple.CreateView("RenderView")
         simple.Show(floor, view)
         display = simple.Show(light, view)
-        display.Position = [0, 0, 1]
+        translate(display, [0, 0, 1])
         display.Orientation = [0, 0, 180]
         simple.Render(view)
         (moved,) = texels_of_view(view)

@@ -7,7 +7,8 @@ import os
 import numpy
 from paraview import simple
 
-from penumbra_testing import Checks, bake, cell_array, find_pass, make_scene, make_view, output_path, texels_of_view
+from penumbra_testing import (
+    Checks, bake, cell_array, find_pass, make_scene, make_view, output_path, texels_of_view, translate)
 
 SAMPLES = 32
 
@@ -85,11 +86,11 @@ def check_level_of_detail():
     checks.equal(watched.bakes(), bakes, "bakes for that")
     before = shown_irradiance(watched.view)
     simple.Render(watched.view)
-    watched.shown.occluder.Position = [0.5, 0, 0]
+    translate(watched.shown.occluder, [0.5, 0, 0])
     watched.interactive()
     checks.check(find_pass(watched.view).GetBakeProgress() < 1, "progress, decimated and its display moved")  # a draft, where the move can shade
     checks.check(shown_irradiance(watched.view) != before, "the shadow follows")
-    watched.shown.occluder.Position = [0, 0, 0]
+    translate(watched.shown.occluder, [0, 0, 0])
     simple.Render(watched.view)
     watched.move(0.5)
     watched.interactive()

@@ -6,7 +6,8 @@ import os
 
 from paraview import simple
 
-from penumbra_testing import PLAIN, Checks, find_pass, load_plugin, make_scene, make_view, picture
+from penumbra_testing import (
+    PLAIN, Checks, find_pass, load_plugin, make_scene, make_view, picture, translation_name)
 
 TOGGLES = 100
 # Caches fill in the first toggles: shaders, the allocator's free lists, shadows at all places that occluders take.
@@ -82,7 +83,7 @@ def check_toggles():
         Setting(scene.light, "Shape", "Triangle"),
         Setting(scene.light, "Radiance", [1.0, 0.5, 0.2]),
         Setting(shown.light, "Visibility", 0),
-        Setting(shown.occluder, "Position", [0.5, 0.0, 0.0])])
+        Setting(shown.occluder, translation_name(shown.occluder), [0.5, 0.0, 0.0])])
 
 
 def check_camera():

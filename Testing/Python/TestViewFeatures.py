@@ -14,7 +14,8 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 
 from penumbra_testing import (
     PLAIN, SHADOWED, SPHERE_CENTER, SPHERE_RADIUS, Checks, bake, cell_array, find_pass, grid_points, image_bytes,
-    image_of_window, make_scene, make_view, output_path, picture)
+    image_of_window, make_scene, make_view, output_path, picture,
+    translate)
 
 # Pixels next to a silhouette mix two surfaces.
 SILHOUETTE = 2
@@ -355,7 +356,7 @@ def check_bakes():
     check_count(1, "changes of colour and shading")
     scene.light.Radiance = [2, 2, 2]
     check_count(2, "a change of the light")
-    shown.occluder.Position = [0.5, 0, 0]
+    translate(shown.occluder, [0.5, 0, 0])
     check_count(3, "a move of the occluder")
     shown.occluder.Opacity = 0.5
     check_count(4, "the occluder has become translucent")

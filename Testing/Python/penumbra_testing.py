@@ -117,6 +117,17 @@ def make_view(scene, size=(400, 300)):
     return SimpleNamespace(view=view, receiver=display, occluder=occluder, light=light)
 
 
+def translation_name(display):
+    """The name of the display's property that moves what it shows: `Translation` since ParaView 5.13, where the older
+    `Position` is refused; before it, `Position`."""
+    return "Translation" if "Translation" in display.ListProperties() else "Position"
+
+
+def translate(display, offset):
+    """Moves what the display shows from where its data are by `offset`, three coordinates."""
+    display.SetPropertyWithName(translation_name(display), offset)
+
+
 def bake(receivers, occluders=(), lights=()):
     """The blocks of a RadianceMap of these proxies."""
     output = radiance_map(receivers, occluders, lights)
