@@ -148,15 +148,14 @@ void SetReceiverUniforms(
 }
 
 void SetReceiverUniforms(
-  vtkShaderProgram* program, vtkReceiverTable* table, int unit, const ScreenMatrices& matrices)
+  vtkShaderProgram* program, vtkReceiverTable* table, const ScreenMatrices& matrices)
 {
   const glm::dmat4 viewToWorld = glm::inverse(matrices.WorldToView);
   const glm::mat3 fromView(glm::dmat3(viewToWorld) / table->GetUnit());
   const glm::dvec3 eye = (glm::dvec3(viewToWorld[3]) - table->GetOrigin()) / table->GetUnit();
-  program->SetUniformi("penumbraTable", unit);
-  program->SetUniformi("penumbraFirstCell", table->GetFirstCell());
   SetUniform(program, "penumbraGridScale", glm::vec3(table->GetGridScale()));
   SetUniform(program, "penumbraGridOffset", glm::vec3(table->GetGridOffset()));
+  SetUniform(program, "penumbraGridCells", glm::vec3(table->GetGridCells()));
   program->SetUniformMatrix3x3(
     "penumbraFromView", const_cast<float*>(glm::value_ptr(fromView))); // VTK does not change it
   SetUniform(program, "penumbraEye", glm::vec3(eye));

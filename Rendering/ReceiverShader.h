@@ -50,11 +50,11 @@ struct ScreenMatrices
 
 ///@{
 /// Sets the uniforms of the program, which has the code: for the only receiver of a prop; or for
-/// several, whose table is bound to a texture unit.
+/// several, but for the textures of their table.
 void SetReceiverUniforms(
   vtkShaderProgram* program, const vtkBakedProp::Entry& entry, const ScreenMatrices& matrices);
 void SetReceiverUniforms(
-  vtkShaderProgram* program, vtkReceiverTable* table, int unit, const ScreenMatrices& matrices);
+  vtkShaderProgram* program, vtkReceiverTable* table, const ScreenMatrices& matrices);
 ///@}
 
 /// What a table has to say of the receivers of a prop with a texture.

@@ -44,6 +44,17 @@ penumbra::ReceiverGrid::Polygon MakePolygon(const vtkReceiverTable::Record& reco
   return polygon;
 }
 
+template <typename T>
+bool UploadTexture(const std::vector<T>& texels, int vtkType, vtkOpenGLRenderWindow* window,
+  vtkOpenGLBufferObject* buffer, vtkTextureObject* texture)
+{
+  penumbra::ForgetOpenGLErrors();
+  return buffer->Upload(texels, vtkOpenGLBufferObject::TextureBuffer) &&
+    !penumbra::HasOpenGLError() &&
+    penumbra::MakeTextureOfBuffer(
+      texture, window, buffer, static_cast<int>(texels.size()), vtkType);
+}
+
 } // namespace
 
 bool vtkReceiverTable::Record::operator==(const Record& other) const
@@ -68,27 +79,19 @@ bool vtkReceiverTable::Update(vtkOpenGLRenderWindow* window, const std::vector<R
   this->Window = window;
   this->Records = records;
   this->ChooseFrame();
-  std::vector<glm::vec4> texels;
-  for (const Record& record : records)
+  const std::vector<glm::vec4> texels = this->MakeRecords();
+  const std::vector<std::uint32_t> words = this->MakeGrid();
+  if (!UploadTexture(texels, VTK_FLOAT, window, this->RecordBuffer, this->RecordTexture) ||
+    !UploadTexture(words, VTK_UNSIGNED_INT, window, this->GridBuffer, this->GridTexture))
   {
-    this->AddRecord(record, texels);
-  }
-  this->AddGrid(texels);
-
-  this->Buffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
-  penumbra::ForgetOpenGLErrors();
-  if (!this->Buffer->Upload(texels, vtkOpenGLBufferObject::TextureBuffer) ||
-    penumbra::HasOpenGLError() ||
-    !penumbra::MakeTextureOfBuffer(
-      this->Texture, window, this->Buffer, static_cast<int>(texels.size())))
-  {
-    vtkErrorMacro("OpenGL refused a buffer texture of "
-      << texels.size() << " texels, which says where the " << records.size()
+    vtkErrorMacro("OpenGL refused buffer textures of "
+      << texels.size() << " and " << words.size() << " texels, which say where the "
+      << records.size()
       << " planar receivers of a surface are. It is drawn without shadows; divide it.");
     this->ReleaseGraphicsResources();
     return false;
   }
-  this->Bytes = texels.size() * sizeof(glm::vec4);
+  this->Bytes = texels.size() * sizeof(glm::vec4) + words.size() * sizeof(std::uint32_t);
   return true;
 }
 
@@ -110,30 +113,36 @@ void vtkReceiverTable::ChooseFrame()
   this->Unit = std::max({ extent.x, extent.y, extent.z });
 }
 
-void vtkReceiverTable::AddRecord(const Record& record, std::vector<glm::vec4>& texels) const
+std::vector<glm::vec4> vtkReceiverTable::MakeRecords() const
 {
-  const penumbra::ReceiverFrame frame(record.Base, penumbra::ReceiverFrame::Side::Front);
-  const glm::dmat4 rows = glm::transpose(frame.GetWorldToFrame());
-  const glm::vec3 corner((record.Base.Corner - this->Origin) / this->Unit);
-  for (int i = 0; i < 3; ++i)
+  std::vector<glm::vec4> texels;
+  texels.reserve(RecordTexels * this->Records.size());
+  for (const Record& record : this->Records)
   {
-    texels.emplace_back(glm::vec3(glm::dvec3(rows[i]) * this->Unit), corner[i]);
+    const penumbra::ReceiverFrame frame(record.Base, penumbra::ReceiverFrame::Side::Front);
+    const glm::dmat4 rows = glm::transpose(frame.GetWorldToFrame());
+    const glm::vec3 corner((record.Base.Corner - this->Origin) / this->Unit);
+    for (int i = 0; i < 3; ++i)
+    {
+      texels.emplace_back(glm::vec3(glm::dvec3(rows[i]) * this->Unit), corner[i]);
+    }
+    const glm::dvec3 rest = frame.ToFrame(this->Origin + this->Unit * glm::dvec3(corner));
+    const float limit = record.IsHalf ? 1.0f : NoLimit;
+    texels.emplace_back(glm::vec3(rest), record.IsWindow ? -limit : limit);
+    texels.push_back(record.Place);
+    texels.emplace_back(record.Ambient, 0.0f);
+    texels.emplace_back(record.Reflectance, 0.0f);
+    texels.emplace_back(0.0f);
+    if (record.ProxyCentre)
+    {
+      const glm::dvec4 sample = frame.GetWorldToFrame() * *record.ProxyCentre;
+      texels.back() = glm::vec4(glm::dvec3(sample.x, sample.y, sample.w) / sample.z, 1.0);
+    }
   }
-  const glm::dvec3 rest = frame.ToFrame(this->Origin + this->Unit * glm::dvec3(corner));
-  const float limit = record.IsHalf ? 1.0f : NoLimit;
-  texels.emplace_back(glm::vec3(rest), record.IsWindow ? -limit : limit);
-  texels.push_back(record.Place);
-  texels.emplace_back(record.Ambient, 0.0f);
-  texels.emplace_back(record.Reflectance, 0.0f);
-  texels.emplace_back(0.0f);
-  if (record.ProxyCentre)
-  {
-    const glm::dvec4 sample = frame.GetWorldToFrame() * *record.ProxyCentre;
-    texels.back() = glm::vec4(glm::dvec3(sample.x, sample.y, sample.w) / sample.z, 1.0);
-  }
+  return texels;
 }
 
-void vtkReceiverTable::AddGrid(std::vector<glm::vec4>& texels)
+std::vector<std::uint32_t> vtkReceiverTable::MakeGrid()
 {
   std::vector<penumbra::ReceiverGrid::Polygon> polygons;
   for (const Record& record : this->Records)
@@ -143,20 +152,18 @@ void vtkReceiverTable::AddGrid(std::vector<glm::vec4>& texels)
   const penumbra::ReceiverGrid grid(polygons);
   this->GridScale = this->Unit / grid.GetSize();
   this->GridOffset = (this->Origin - grid.GetLow()) / grid.GetSize();
-  texels.insert(texels.end(), grid.GetTable().begin(), grid.GetTable().end());
-}
-
-int vtkReceiverTable::GetFirstCell() const
-{
-  return RecordTexels * static_cast<int>(this->Records.size());
+  this->GridCells = grid.GetCells();
+  return grid.GetTable();
 }
 
 void vtkReceiverTable::ReleaseGraphicsResources()
 {
   if (this->Window)
   {
-    this->Texture->ReleaseGraphicsResources(this->Window);
-    this->Buffer->ReleaseGraphicsResources();
+    this->RecordTexture->ReleaseGraphicsResources(this->Window);
+    this->GridTexture->ReleaseGraphicsResources(this->Window);
+    this->RecordBuffer->ReleaseGraphicsResources();
+    this->GridBuffer->ReleaseGraphicsResources();
   }
   this->Window = nullptr;
   this->Bytes = 0;

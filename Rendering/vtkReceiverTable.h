@@ -4,9 +4,10 @@
  * @class vtkReceiverTable
  * @brief the receivers of a prop, for a shader that finds a fragment's own one among them
  *
- * A buffer texture, GL_RGBA32F: a record of each receiver, then a penumbra::ReceiverGrid that says
- * which of them are near a point. It is in a frame of its own, GetOrigin() and GetUnit(), in which
- * the receivers' numbers are near 1: no frame of the view changes it.
+ * Two buffer textures: the words of a penumbra::ReceiverGrid, which says which receivers are near a
+ * point (GL_R32UI), and a record of each receiver (GL_RGBA32F). They are in a frame of their own,
+ * GetOrigin() and GetUnit(), in which the receivers' numbers are near 1: no frame of the view
+ * changes it.
  *
  * A record has RecordTexels texels; D is a row of what takes a place to (u, v, h) of the receiver,
  * with h = 0 on its plane, and b is its corner in single precision:
@@ -27,6 +28,7 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for vtkWeakPointer
 
+#include <cstdint>  // for words
 #include <optional> // for centres of projection
 #include <vector>   // for records
 
@@ -76,26 +78,29 @@ public:
 
   ///@{
   /**
-   * The texel of the grid's first cell; and what takes places of the frame to the grid's box, [0,
-   * 1] along each axis: place * scale + offset.
+   * What takes places of the frame to the grid's box, [0, 1] along each axis: place * scale +
+   * offset; and how many cells the outermost grid has along each axis.
    */
-  int GetFirstCell() const;
   const glm::dvec3& GetGridScale() const { return this->GridScale; }
   const glm::dvec3& GetGridOffset() const { return this->GridOffset; }
+  const glm::ivec3& GetGridCells() const { return this->GridCells; }
+  ///@}
+
+  ///@{
+  /**
+   * The buffer textures.
+   */
+  vtkTextureObject* GetRecords() { return this->RecordTexture; }
+  vtkTextureObject* GetGrid() { return this->GridTexture; }
   ///@}
 
   /**
-   * The buffer texture.
-   */
-  vtkTextureObject* GetTexture() { return this->Texture; }
-
-  /**
-   * The bytes that it takes.
+   * The bytes that they take.
    */
   std::size_t GetBytes() const { return this->Bytes; }
 
   /**
-   * Free it.
+   * Free them.
    */
   void ReleaseGraphicsResources();
 
@@ -108,16 +113,17 @@ private:
   void operator=(const vtkReceiverTable&) = delete;
 
   void ChooseFrame();
-  void AddRecord(const Record& record, std::vector<glm::vec4>& texels) const;
-  void AddGrid(std::vector<glm::vec4>& texels);
+  std::vector<glm::vec4> MakeRecords() const;
+  std::vector<std::uint32_t> MakeGrid();
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  vtkNew<vtkOpenGLBufferObject> Buffer;
-  vtkNew<vtkTextureObject> Texture;
+  vtkNew<vtkOpenGLBufferObject> RecordBuffer, GridBuffer;
+  vtkNew<vtkTextureObject> RecordTexture, GridTexture;
   std::vector<Record> Records;
   glm::dvec3 Origin{ 0.0 };
   double Unit = 1.0;
   glm::dvec3 GridScale{ 1.0 }, GridOffset{ 0.0 };
+  glm::ivec3 GridCells{ 1 };
   std::size_t Bytes = 0;
 };
 

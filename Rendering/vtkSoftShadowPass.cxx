@@ -185,8 +185,14 @@ struct vtkSoftShadowPass::Internals
   vtkTimeStamp ShaderTime;
   /// While the delegate draws:
   vtkRenderer* Renderer = nullptr;
-  int TextureUnit = -1;
-  int TableUnit = -1; ///< of tables of several receivers
+  enum Unit
+  {
+    ShownUnit,   ///< of what is shown
+    RecordsUnit, ///< of tables of several receivers
+    GridUnit,
+    NumberOfUnits
+  };
+  std::vector<int> Units; ///< of textures: all of them, or none
 
   /// What a prop shows; nullptr if that was released since the delegate began.
   const ShownProp* Find(vtkProp* prop) const
@@ -197,31 +203,38 @@ struct vtkSoftShadowPass::Internals
     return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
   }
 
-  /// Both, or none; none if there is nothing to show.
+  /// If there is anything to show.
   void AllocateUnits(vtkTextureUnitManager* units)
   {
-    if (this->Shown.empty())
+    while (!this->Shown.empty() && this->Units.size() < NumberOfUnits)
     {
-      return;
-    }
-    this->TextureUnit = units->Allocate();
-    this->TableUnit = units->Allocate();
-    if (this->TableUnit < 0)
-    {
-      this->FreeUnits(units);
+      this->Units.push_back(units->Allocate());
+      if (this->Units.back() < 0)
+      {
+        this->Units.pop_back();
+        this->FreeUnits(units);
+        return;
+      }
     }
   }
 
   void FreeUnits(vtkTextureUnitManager* units)
   {
-    for (int* unit : { &this->TextureUnit, &this->TableUnit })
+    for (const int unit : this->Units)
     {
-      if (*unit >= 0)
-      {
-        units->Free(*unit);
-      }
-      *unit = -1;
+      units->Free(unit);
     }
+    this->Units.clear();
+  }
+
+  /// Gives a texture to a shader's sampler.
+  void Bind(vtkShaderProgram* program, const char* sampler, Unit which, unsigned int kind,
+    vtkTextureObject* texture) const
+  {
+    const int unit = this->Units[which];
+    this->Window->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(unit));
+    glBindTexture(kind, texture->GetHandle());
+    program->SetUniformi(sampler, unit);
   }
 };
 
@@ -311,14 +324,14 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
   this->Impl->Renderer = renderer;
   this->Impl->AllocateUnits(units);
   std::vector<vtkProp*> props;
-  if (this->Impl->TextureUnit >= 0)
+  if (!this->Impl->Units.empty())
   {
     props = this->MarkReceivers();
   }
   else if (!this->Impl->Shown.empty())
   {
-    vtkErrorMacro(
-      "No texture units are free, and two are needed. Receivers are drawn without shadows.");
+    vtkErrorMacro("Three free texture units are needed, and there are not so many. Receivers are "
+                  "drawn without shadows.");
   }
   vtkRenderState receivers(renderer);
   receivers.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
@@ -630,14 +643,9 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
     return true;
   }
   const ShownProp& shown = *found;
-  vtkOpenGLState* state = this->Impl->Window->GetState();
-  state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
-  vtkRadianceTexture* radiance = shown.Baked->GetTexture();
-  vtkTextureObject* texture =
-    shown.Shading == RADIANCE ? radiance->GetIrradiance() : shown.Factors->GetTexture();
-  glBindTexture(GL_TEXTURE_2D, texture->GetHandle());
-  program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
-
+  vtkTextureObject* texture = shown.Shading == RADIANCE ? shown.Baked->GetTexture()->GetIrradiance()
+                                                        : shown.Factors->GetTexture();
+  this->Impl->Bind(program, "penumbraTexture", Internals::ShownUnit, GL_TEXTURE_2D, texture);
   if (shown.Factors)
   {
     program->SetUniformf("penumbraScale", shown.Factors->GetScale());
@@ -645,9 +653,11 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
   const penumbra::ScreenMatrices matrices(this->Impl->Renderer);
   if (shown.GetCode().HasSeveral)
   {
-    state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TableUnit));
-    glBindTexture(GL_TEXTURE_BUFFER, shown.Table->GetTexture()->GetHandle());
-    penumbra::SetReceiverUniforms(program, shown.Table, this->Impl->TableUnit, matrices);
+    this->Impl->Bind(program, "penumbraRecords", Internals::RecordsUnit, GL_TEXTURE_BUFFER,
+      shown.Table->GetRecords());
+    this->Impl->Bind(
+      program, "penumbraGrid", Internals::GridUnit, GL_TEXTURE_BUFFER, shown.Table->GetGrid());
+    penumbra::SetReceiverUniforms(program, shown.Table, matrices);
   }
   else
   {

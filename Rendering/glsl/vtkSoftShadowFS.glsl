@@ -18,42 +18,46 @@ uniform float penumbraScale;       // of the factors
 
 #ifdef PENUMBRA_SEVERAL
 
-uniform samplerBuffer penumbraTable; // vtkReceiverTable, which says what is in it
-uniform int penumbraFirstCell;       // of its grid
-uniform vec3 penumbraGridScale;      // from its frame to the grid's box
+uniform samplerBuffer penumbraRecords; // vtkReceiverTable, which says what is in it
+uniform usamplerBuffer penumbraGrid;   // penumbra::ReceiverGrid, too
+uniform vec3 penumbraGridScale;        // from the table's frame to the grid's box
 uniform vec3 penumbraGridOffset;
-uniform mat3 penumbraFromView;       // directions of the view, in its frame
-uniform vec3 penumbraEye;            // where the view's origin is in its frame
-uniform vec3 penumbraEyeRest;        // what single precision leaves of that
+uniform vec3 penumbraGridCells;        // of the outermost grid
+uniform mat3 penumbraFromView;         // directions of the view, in the table's frame
+uniform vec3 penumbraEye;              // where the view's origin is in its frame
+uniform vec3 penumbraEyeRest;          // what single precision leaves of that
 #ifndef PENUMBRA_VIEW
-uniform mat4 penumbraToView;         // gl_FragCoord to the view, homogeneous
-uniform vec4 penumbraSight;          // where the camera looks, in the table's frame; w: 1 if rays are parallel
+uniform mat4 penumbraToView;           // gl_FragCoord to the view, homogeneous
+uniform vec4 penumbraSight;            // where the camera looks, in the table's frame; w: 1 if rays are parallel
 #endif
 
-// The cell of the grid that a place of the table's frame is in: vec4(receiver, index of the next ones, -, their number).
-vec4 penumbraFindCell(vec3 place)
+const uint PenumbraList = 0x40000000u; // words of penumbra::ReceiverGrid
+const uint PenumbraReceiver = 0x80000000u;
+const uint PenumbraMoreFollow = 0x40000000u;
+
+// Where in the grid the first receiver is named that is near a place of the table's frame, and its word. There is one
+// loop, and one in penumbraLookUp(): software OpenGL runs through each at least once for every fragment.
+int penumbraFindCell(vec3 place, out uint word)
 {
-  // What a float holds of the box has digits for so many grids, one within another (ReceiverGrid).
-  const int deepest = 10;
-  vec3 inGrid = 4.0 * clamp(place * penumbraGridScale + penumbraGridOffset, 0.0, 1.0);
-  vec4 found = vec4(0.0);
-  int grid = penumbraFirstCell;
-  for (int depth = 0; depth < deepest; ++depth)
+  vec3 cells = penumbraGridCells;
+  vec3 inGrid = clamp(place * penumbraGridScale + penumbraGridOffset, 0.0, 1.0);
+  int at = 0;
+  word = 0u;
+  do
   {
-    vec3 cell = min(floor(inGrid), 3.0);
-    found = texelFetch(penumbraTable, grid + int(cell.x + 4.0 * (cell.y + 4.0 * cell.z)));
-    if (found.w > 0.0)
-    {
-      break;
-    }
-    grid = penumbraFirstCell + int(found.x);
-    inGrid = 4.0 * (inGrid - cell);
-  }
-  return found;
+    inGrid *= cells;
+    vec3 cell = min(floor(inGrid), cells - 1.0);
+    at = word < PenumbraList ? int(word) + int(cell.x + cells.x * (cell.y + cells.y * cell.z))
+                             : int(word - PenumbraList);
+    word = texelFetch(penumbraGrid, at).r;
+    inGrid -= cell;
+    cells = vec3(4.0);
+  } while (word < PenumbraReceiver);
+  return at;
 }
 
 // A receiver of the table, and where a fragment is in its frame.
-struct PenumbraReceiver
+struct PenumbraPlace
 {
   vec3 toU, toV; // from places of the table's frame
   vec3 uvh;
@@ -61,21 +65,21 @@ struct PenumbraReceiver
   float distance;
 };
 
-PenumbraReceiver penumbraReadReceiver(int first, vec3 fromEye)
+PenumbraPlace penumbraReadReceiver(int first, vec3 fromEye)
 {
-  vec4 u = texelFetch(penumbraTable, first);
-  vec4 v = texelFetch(penumbraTable, first + 1);
-  vec4 h = texelFetch(penumbraTable, first + 2);
-  vec4 rest = texelFetch(penumbraTable, first + 3);
+  vec4 u = texelFetch(penumbraRecords, first);
+  vec4 v = texelFetch(penumbraRecords, first + 1);
+  vec4 h = texelFetch(penumbraRecords, first + 2);
+  vec4 rest = texelFetch(penumbraRecords, first + 3);
   // The eye relative to the receiver's corner comes first: where they are near each other, nothing is lost.
   vec3 place = fromEye + ((penumbraEye - vec3(u.w, v.w, h.w)) + penumbraEyeRest);
-  PenumbraReceiver receiver;
+  PenumbraPlace receiver;
   receiver.toU = u.xyz;
   receiver.toV = v.xyz;
   receiver.uvh = vec3(dot(u.xyz, place), dot(v.xyz, place), dot(h.xyz, place)) + rest.xyz;
   receiver.limit = abs(rest.w);
 #ifdef PENUMBRA_PROXY
-  vec4 projection = texelFetch(penumbraTable, first + 7);
+  vec4 projection = texelFetch(penumbraRecords, first + 7);
   bool isProxy = projection.w > 0.0;
 #else
   const bool isProxy = false;
@@ -114,22 +118,29 @@ vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
   vec3 inView = homogeneous.xyz / homogeneous.w;
 #endif
   vec3 fromEye = penumbraFromView * inView;
-  vec4 cell = penumbraFindCell(fromEye + penumbraEye);
-  int first = PENUMBRA_RECORD * int(cell.x);
-  PenumbraReceiver nearest = penumbraReadReceiver(first, fromEye);
-  for (int i = 0; i < int(cell.w) - 1; ++i)
+  uint word;
+  int at = penumbraFindCell(fromEye + penumbraEye, word);
+  int first = 0;
+  PenumbraPlace nearest;
+  nearest.distance = 3.0e38;
+  for (;;)
   {
-    int other = PENUMBRA_RECORD * int(texelFetch(penumbraTable, penumbraFirstCell + int(cell.y) + i).x);
-    PenumbraReceiver receiver = penumbraReadReceiver(other, fromEye);
+    int record = PENUMBRA_RECORD * int(word & (PenumbraMoreFollow - 1u));
+    PenumbraPlace receiver = penumbraReadReceiver(record, fromEye);
     if (receiver.distance < nearest.distance)
     {
       nearest = receiver;
-      first = other;
+      first = record;
     }
+    if (word < PenumbraReceiver + PenumbraMoreFollow)
+    {
+      break;
+    }
+    word = texelFetch(penumbraGrid, ++at).r;
   }
-  ambient = texelFetch(penumbraTable, first + 5).rgb;
-  reflectance = texelFetch(penumbraTable, first + 6).rgb;
-  vec4 place = texelFetch(penumbraTable, first + 4);
+  ambient = texelFetch(penumbraRecords, first + 5).rgb;
+  reflectance = texelFetch(penumbraRecords, first + 6).rgb;
+  vec4 place = texelFetch(penumbraRecords, first + 4);
   vec2 uv = clamp(nearest.uvh.xy, 0.0, 1.0);
   uv -= 0.5 * max(uv.x + uv.y - nearest.limit, 0.0); // it stays within [0, 1]^2
   // How (u, v) changes from pixel to pixel is asked of the receiver of this pixel: its neighbours may have found others.
