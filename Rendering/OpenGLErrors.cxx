@@ -77,12 +77,15 @@ bool AllocateTexture(vtkTextureObject* texture, vtkOpenGLRenderWindow* window,
 }
 
 bool MakeTextureOfBuffer(vtkTextureObject* texture, vtkOpenGLRenderWindow* window,
-  vtkOpenGLBufferObject* buffer, int texels)
+  vtkOpenGLBufferObject* buffer, int texels, int vtkType)
 {
   ForgetOpenGLErrors();
   const ScopedSilence silence;
-  texture->SetContext(window);
-  return texture->CreateTextureBuffer(static_cast<unsigned int>(texels), 4, VTK_FLOAT, buffer) &&
+  texture->SetContext(window); // it forgets the format
+  const bool isInteger = vtkType == VTK_UNSIGNED_INT;
+  texture->SetInternalFormat(isInteger ? GL_R32UI : GL_RGBA32F);
+  return texture->CreateTextureBuffer(
+           static_cast<unsigned int>(texels), isInteger ? 1 : 4, vtkType, buffer) &&
     !HasOpenGLError() && HasWidth(texture, texels);
 }
 

@@ -8,6 +8,7 @@
 #define OpenGLErrors_h
 
 #include "Vectors.h"
+#include "vtkType.h" // for VTK_FLOAT
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;
@@ -28,15 +29,15 @@ bool HasOpenGLError();
 
 ///@{
 /**
- * Make room for a texture, of a VTK type such as VTK_FLOAT; or make a texture of four floats a
- * texel of what a buffer holds. False if OpenGL refuses. VTK, if it was built to report errors,
- * reports this one and forgets it, but says that all went well: here it is silent, and OpenGL is
- * asked for what there is.
+ * Make room for a texture, of a VTK type such as VTK_FLOAT; or make a texture of what a buffer
+ * holds, four floats or an unsigned integer (VTK_UNSIGNED_INT) a texel. False if OpenGL refuses.
+ * VTK, if it was built to report errors, reports this one and forgets it, but says that all went
+ * well: here it is silent, and OpenGL is asked for what there is.
  */
 bool AllocateTexture(vtkTextureObject* texture, vtkOpenGLRenderWindow* window,
   const glm::ivec2& size, int components, int vtkType);
 bool MakeTextureOfBuffer(vtkTextureObject* texture, vtkOpenGLRenderWindow* window,
-  vtkOpenGLBufferObject* buffer, int texels);
+  vtkOpenGLBufferObject* buffer, int texels, int vtkType = VTK_FLOAT);
 ///@}
 
 } // namespace penumbra

@@ -18,16 +18,10 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <algorithm>
-
 namespace penumbra
 {
 namespace
 {
-
-/// Uniforms that a receiver takes, in units of four floats, and what is left to VTK's own.
-constexpr int VectorsPerReceiver = 7;
-constexpr int VectorsOfVTK = 128;
 
 /// If the actor is lit and no geometry shader comes between, hands where the vertex lies on its
 /// only receiver from the vertex shader to the fragment shader.
@@ -39,9 +33,9 @@ bool AddVarying(std::string& vertexShader, const std::string& geometryShader)
     return false;
   }
   vtkShaderProgram::Substitute(vertexShader, "//VTK::System::Dec",
-    "//VTK::System::Dec\nuniform mat4 penumbraViewMaps[1];\nout vec2 penumbraUVVSOutput;\n", false);
+    "//VTK::System::Dec\nuniform mat4 penumbraViewMap;\nout vec2 penumbraUVVSOutput;\n", false);
   vtkShaderProgram::Substitute(vertexShader, position,
-    position + "\n  penumbraUVVSOutput = (penumbraViewMaps[0] * vertexVCVSOutput).xy;", false);
+    position + "\n  penumbraUVVSOutput = (penumbraViewMap * vertexVCVSOutput).xy;", false);
   return vertexShader.find("out vec2 penumbraUVVSOutput") != std::string::npos;
 }
 
@@ -60,55 +54,33 @@ glm::dmat4 MakeMap(
                   : MakeScreenMap(base, screen.WorldToView, screen.ViewToClip, screen.Viewport);
 }
 
-/// The uniforms of vtkSoftShadowFS.glsl, an element for each receiver.
-struct ReceiverUniforms
+/// What vtkSoftShadowFS.glsl has to know of the prop.
+std::string MakeDefines(const ShadowCode& code)
 {
-  /// Far more than u + v is of any receiver.
-  static constexpr float NoLimit = 1e9f;
-
-  std::vector<glm::mat4> Maps;
-  std::vector<glm::vec4> Places, Ambient;
-  std::vector<glm::vec3> Reflectance;
-
-  /// `inset`: how many texels inside the region's border (u, v) begin and end.
-  void Add(const glm::dmat4& map, const ReceiverSettings& settings,
-    const vtkRadianceTexture::Region& region, const glm::vec2& textureSize, float inset)
+  std::string defines;
+  if (code.HasSeveral)
   {
-    this->Maps.emplace_back(map);
-    const bool isHalf = region.Half != AtlasHalf::Whole;
-    this->Ambient.emplace_back(glm::vec3(settings.AmbientRadiance), isHalf ? 1.0f : NoLimit);
-    this->Reflectance.emplace_back(settings.Reflectance);
-    // Where a region is turned, (u, v) = (0, 0) is its end, and its size is negative.
-    const auto step = static_cast<float>(region.GetStep());
-    const glm::vec2 start(step > 0.0f ? region.Origin : region.Origin + region.Size);
-    this->Places.emplace_back((start + step * inset) / textureSize,
-      step * (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
+    defines += "#define PENUMBRA_SEVERAL\n#define PENUMBRA_RECORD " +
+      std::to_string(vtkReceiverTable::RecordTexels) + "\n";
   }
-
-  void Set(vtkShaderProgram* program, const char* maps)
+  if (code.HasProxy)
   {
-    const auto count = static_cast<int>(this->Maps.size());
-    program->SetUniformMatrix4x4v(maps, count, &this->Maps.front()[0].x);
-    program->SetUniform4fv("penumbraPlaces", count, &this->Places.front().x);
-    program->SetUniform4fv("penumbraAmbient", count, &this->Ambient.front().x);
-    program->SetUniform3fv("penumbraReflectance", count, &this->Reflectance.front().x);
+    defines += "#define PENUMBRA_PROXY " + std::to_string(ProxyHeight) + "\n";
   }
-};
+  return defines;
+}
+
+void SetUniform(vtkShaderProgram* program, const char* name, const glm::vec3& value)
+{
+  program->SetUniform3f(name, &value.x);
+}
 
 } // namespace
 
-std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window)
+bool CompilesShadowCode(const ShadowCode& code, vtkOpenGLRenderWindow* window)
 {
-  GLint components = 0;
-  window->GetState()->vtkglGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &components);
-  return static_cast<std::size_t>(
-    std::max(1, (components / 4 - VectorsOfVTK) / VectorsPerReceiver));
-}
-
-bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
-{
-  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define PENUMBRA_RECEIVERS " +
-    std::to_string(receivers) + "\n#define PENUMBRA_WINDOWS 0\n" + vtkSoftShadowFS +
+  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n" + MakeDefines(code) +
+    vtkSoftShadowFS +
     "void main()\n{\n  gl_FragData[0] = vec4(penumbraShadow(gl_FragCoord) + "
     "penumbraRadiance(gl_FragCoord), 1.0);\n}\n";
   return ReadyFullScreenProgram(window, source.c_str());
@@ -117,18 +89,13 @@ bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window)
 void AddShadowCode(const ShadowCode& code, std::string& vertexShader,
   const std::string& geometryShader, std::string& fragmentShader)
 {
-  std::string defines = "#define PENUMBRA_RECEIVERS " + std::to_string(code.Receivers) +
-    "\n#define PENUMBRA_WINDOWS " + std::to_string(code.Windows) + "\n";
+  std::string defines = MakeDefines(code);
   std::string position = "vec4(gl_FragCoord.xyz, 1.0)";
   if (fragmentShader.find("vec4 vertexVC = ") != std::string::npos)
   {
     defines += "#define PENUMBRA_VIEW\n";
     position = "vec4(vertexVC.xyz, 1.0)";
-    if (code.HasProxy)
-    {
-      defines += "#define PENUMBRA_PROXY\n";
-    }
-    else if (code.Receivers == 1 && AddVarying(vertexShader, geometryShader))
+    if (!code.HasProxy && !code.HasSeveral && AddVarying(vertexShader, geometryShader))
     {
       defines += "#define PENUMBRA_VARYING\n";
     }
@@ -168,27 +135,70 @@ ScreenMatrices::ScreenMatrices(vtkRenderer* renderer)
 }
 
 void SetReceiverUniforms(
-  vtkShaderProgram* program, vtkBakedProp* baked, const ScreenMatrices& matrices)
+  vtkShaderProgram* program, const vtkBakedProp::Entry& entry, const ScreenMatrices& matrices)
 {
-  const bool fromView = program->IsUniformUsed("penumbraViewMaps");
-  const std::vector<vtkBakedProp::Entry>& entries = baked->GetEntries();
-  vtkRadianceTexture* texture = baked->GetTexture();
-  // Alone, a receiver fills its texture, and (u, v) are the texture's; of several, the closest is
-  // looked for, by its own parallelogram.
-  const bool isAlone = entries.size() == 1;
-  ReceiverUniforms uniforms;
-  // Windows, the last entries, come first: see vtkSoftShadowFS.glsl.
-  const std::size_t windows = baked->CountWindows();
-  for (std::size_t place = 0; place < entries.size(); ++place)
+  // A receiver fills its texture, alone, and (u, v) are the texture's.
+  const bool fromView = program->IsUniformUsed("penumbraViewMap");
+  const glm::mat4 map(MakeMap(entry.Settings, entry.Base, fromView, matrices));
+  program->SetUniformMatrix4x4(fromView ? "penumbraViewMap" : "penumbraScreenMap",
+    const_cast<float*>(glm::value_ptr(map))); // VTK does not change it
+  const ReceiverSettings& settings = entry.Settings.Settings;
+  SetUniform(program, "penumbraAmbient", glm::vec3(settings.AmbientRadiance));
+  SetUniform(program, "penumbraReflectance", glm::vec3(settings.Reflectance));
+}
+
+void SetReceiverUniforms(
+  vtkShaderProgram* program, vtkReceiverTable* table, const ScreenMatrices& matrices)
+{
+  const glm::dmat4 viewToWorld = glm::inverse(matrices.WorldToView);
+  const glm::mat3 fromView(glm::dmat3(viewToWorld) / table->GetUnit());
+  const glm::dvec3 eye = (glm::dvec3(viewToWorld[3]) - table->GetOrigin()) / table->GetUnit();
+  SetUniform(program, "penumbraGridScale", glm::vec3(table->GetGridScale()));
+  SetUniform(program, "penumbraGridOffset", glm::vec3(table->GetGridOffset()));
+  SetUniform(program, "penumbraGridCells", glm::vec3(table->GetGridCells()));
+  program->SetUniformMatrix3x3(
+    "penumbraFromView", const_cast<float*>(glm::value_ptr(fromView))); // VTK does not change it
+  SetUniform(program, "penumbraEye", glm::vec3(eye));
+  SetUniform(program, "penumbraEyeRest", glm::vec3(eye - glm::dvec3(glm::vec3(eye))));
+  if (program->IsUniformUsed("penumbraToView"))
   {
-    const std::size_t i = (place + entries.size() - windows) % entries.size();
-    const vtkBakedProp::Entry& entry = entries[i];
-    const Parallelogram& base = isAlone ? entry.Base : entry.Settings.Base;
-    uniforms.Add(MakeMap(entry.Settings, base, fromView, matrices), entry.Settings.Settings,
-      texture->GetRegions()[i], glm::vec2(texture->GetSize()),
-      !isAlone && entry.Vertices > 0 ? 0.5f : 0.0f);
+    const glm::mat4 toView(MakeWindowToView(matrices.ViewToClip, matrices.Viewport));
+    program->SetUniformMatrix4x4(
+      "penumbraToView", const_cast<float*>(glm::value_ptr(toView))); // VTK does not change it
+    const bool isParallel = matrices.ViewToClip[2][3] == 0.0;
+    const glm::vec4 sight(-fromView[2], isParallel ? 1.0f : 0.0f);
+    program->SetUniform4f("penumbraSight", glm::value_ptr(sight));
   }
-  uniforms.Set(program, fromView ? "penumbraViewMaps" : "penumbraScreenMaps");
+}
+
+std::vector<vtkReceiverTable::Record> MakeReceiverRecords(vtkBakedProp* baked)
+{
+  const std::vector<vtkBakedProp::Entry>& entries = baked->GetEntries();
+  const std::vector<vtkRadianceTexture::Region>& regions = baked->GetTexture()->GetRegions();
+  const glm::vec2 textureSize(baked->GetTexture()->GetSize());
+  std::vector<vtkReceiverTable::Record> records;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+  {
+    const Receiver& receiver = entries[i].Settings;
+    const vtkRadianceTexture::Region& region = regions[i];
+    vtkReceiverTable::Record record;
+    record.Base = receiver.Base;
+    record.IsTriangle = receiver.IsTriangle;
+    record.IsHalf = region.Half != AtlasHalf::Whole;
+    record.IsWindow = receiver.WindowOf.has_value();
+    record.ProxyCentre = receiver.ProxyCentre;
+    // Vertices are at the middles of texels: (u, v) begin and end half a texel inside the border.
+    const float inset = entries[i].Vertices > 0 ? 0.5f : 0.0f;
+    // Where a region is turned, (u, v) = (0, 0) is its end, and its size is negative.
+    const auto step = static_cast<float>(region.GetStep());
+    const glm::vec2 start(step > 0.0f ? region.Origin : region.Origin + region.Size);
+    record.Place = glm::vec4((start + step * inset) / textureSize,
+      step * (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
+    record.Ambient = glm::vec3(receiver.Settings.AmbientRadiance);
+    record.Reflectance = glm::vec3(receiver.Settings.Reflectance);
+    records.push_back(record);
+  }
+  return records;
 }
 
 } // namespace penumbra

@@ -8,7 +8,8 @@
 #define ReceiverShader_h
 
 #include "Vectors.h"
-#include "vtkBakedProp.h" // for entries
+#include "vtkBakedProp.h"     // for entries
+#include "vtkReceiverTable.h" // for records
 
 #include <string>
 #include <vector>
@@ -20,22 +21,17 @@ class vtkShaderProgram;
 namespace penumbra
 {
 
-/// How many receivers the shader of one prop can tell apart.
-std::size_t GetMaximumReceivers(vtkOpenGLRenderWindow* window);
-
-/// Whether OpenGL compiles what the shaders of props with so many receivers get: VTK crashes on
-/// shaders that do not compile.
-bool CompilesShadowCode(std::size_t receivers, vtkOpenGLRenderWindow* window);
-
 /// What a shader has to show.
 struct ShadowCode
 {
-  std::size_t Receivers = 1;
-  std::size_t Windows = 0;    ///< of these, windows of others
+  bool HasSeveral = false;    ///< receivers, of which a vtkReceiverTable knows the fragment's own
   bool HasProxy = false;      ///< does a plane stand for a surface?
   bool ShowsRadiance = false; ///< or shadows
   bool IsMatte = false;       ///< the material has no specular part
 };
+
+/// Whether OpenGL compiles what shaders get: VTK crashes on shaders that do not compile.
+bool CompilesShadowCode(const ShadowCode& code, vtkOpenGLRenderWindow* window);
 
 /// Adds the code to the shaders that a mapper has made.
 void AddShadowCode(const ShadowCode& code, std::string& vertexShader,
@@ -52,9 +48,17 @@ struct ScreenMatrices
   explicit ScreenMatrices(vtkRenderer* renderer);
 };
 
-/// Sets the uniforms of the program, which has the code, for a prop with a texture.
+///@{
+/// Sets the uniforms of the program, which has the code: for the only receiver of a prop; or for
+/// several, but for the textures of their table.
 void SetReceiverUniforms(
-  vtkShaderProgram* program, vtkBakedProp* baked, const ScreenMatrices& matrices);
+  vtkShaderProgram* program, const vtkBakedProp::Entry& entry, const ScreenMatrices& matrices);
+void SetReceiverUniforms(
+  vtkShaderProgram* program, vtkReceiverTable* table, const ScreenMatrices& matrices);
+///@}
+
+/// What a table has to say of the receivers of a prop with a texture.
+std::vector<vtkReceiverTable::Record> MakeReceiverRecords(vtkBakedProp* baked);
 
 } // namespace penumbra
 

@@ -4,16 +4,6 @@
 
 namespace penumbra
 {
-namespace
-{
-
-/// Of an actor's several receivers, a fragment belongs to the one that it is closest to. What a
-/// plane stands for is above it by any height and counts as close, but not as close as what lies in
-/// a planar receiver.
-constexpr double ProxyHeight = 1e-3;
-
-} // namespace
-
 glm::dmat4 MakeScreenMap(const Parallelogram& base, const glm::dmat4& worldToView,
   const glm::dmat4& viewToClip, const glm::ivec4& viewport)
 {
@@ -59,8 +49,7 @@ glm::dmat4 MakeProxyViewMap(
   return project * toFrame;
 }
 
-glm::dmat4 MakeProxyScreenMap(const Parallelogram& base, const glm::dvec4& centre,
-  const glm::dmat4& worldToView, const glm::dmat4& viewToClip, const glm::ivec4& viewport)
+glm::dmat4 MakeWindowToView(const glm::dmat4& viewToClip, const glm::ivec4& viewport)
 {
   glm::dmat4 windowToDevice(1.0);
   for (int i = 0; i < 2; ++i)
@@ -70,7 +59,13 @@ glm::dmat4 MakeProxyScreenMap(const Parallelogram& base, const glm::dvec4& centr
   }
   windowToDevice[2][2] = 2.0; // depth is [0, 1]
   windowToDevice[3][2] = -1.0;
-  return MakeProxyViewMap(base, centre, worldToView) * glm::inverse(viewToClip) * windowToDevice;
+  return glm::inverse(viewToClip) * windowToDevice;
+}
+
+glm::dmat4 MakeProxyScreenMap(const Parallelogram& base, const glm::dvec4& centre,
+  const glm::dmat4& worldToView, const glm::dmat4& viewToClip, const glm::ivec4& viewport)
+{
+  return MakeProxyViewMap(base, centre, worldToView) * MakeWindowToView(viewToClip, viewport);
 }
 
 } // namespace penumbra

@@ -13,6 +13,11 @@
 namespace penumbra
 {
 
+/// Of an actor's several receivers, a fragment belongs to the one that it is closest to. What a
+/// plane stands for is above it by any height and counts as close, but not as close as what lies in
+/// a planar receiver.
+constexpr double ProxyHeight = 1e-3;
+
 /**
  * The matrix that takes window coordinates, gl_FragCoord's (x, y, z, 1), to (u q, v q, h q, q): (u,
  * v) is where on the receiver's plane the pixel looks, and h is 0 for what lies on the plane.
@@ -34,12 +39,19 @@ PENUMBRARENDERING_EXPORT glm::dmat4 MakeScreenMap(const Parallelogram& base,
 PENUMBRARENDERING_EXPORT glm::dmat4 MakeViewMap(
   const Parallelogram& base, const glm::dmat4& worldToView);
 
+/**
+ * The matrix that takes window coordinates to homogeneous view coordinates. Depth has few digits:
+ * what is far away is off along the ray to it.
+ */
+PENUMBRARENDERING_EXPORT glm::dmat4 MakeWindowToView(
+  const glm::dmat4& viewToClip, const glm::ivec4& viewport);
+
 ///@{
 /**
- * The same two for a plane that stands for a surface (PlaceProxy): (u q, v q) is where the point of
- * the surface is projected to from `centre`, homogeneous, in the world; h is the same small number
- * for all. What lies between the camera and the plane counts here, so the second inverts the
- * camera's projection, depth and all.
+ * The receiver's two for a plane that stands for a surface (PlaceProxy): (u q, v q) is where the
+ * point of the surface is projected to from `centre`, homogeneous, in the world; h is the same
+ * small number for all. What lies between the camera and the plane counts here, so the second
+ * inverts the camera's projection, depth and all.
  */
 PENUMBRARENDERING_EXPORT glm::dmat4 MakeProxyViewMap(
   const Parallelogram& base, const glm::dvec4& centre, const glm::dmat4& worldToView);

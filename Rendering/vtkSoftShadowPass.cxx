@@ -21,6 +21,7 @@
 #include "vtkProperty.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
+#include "vtkReceiverTable.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
@@ -51,6 +52,7 @@ struct ShownProp
   vtkWeakPointer<vtkProp> Prop;
   vtkSmartPointer<vtkBakedProp> Baked;
   vtkSmartPointer<vtkShadowFactors> Factors = nullptr; ///< for SHADOW alone
+  vtkSmartPointer<vtkReceiverTable> Table = nullptr;   ///< of several receivers
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
   bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
@@ -60,7 +62,19 @@ struct ShownProp
   std::size_t CountReceivers() const { return this->CountEntries() - this->Baked->CountWindows(); }
   std::size_t GetBytes() const
   {
-    return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0);
+    return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0) +
+      (this->Table ? this->Table->GetBytes() : 0);
+  }
+  penumbra::ShadowCode GetCode() const
+  {
+    const std::vector<vtkBakedProp::Entry>& entries = this->Baked->GetEntries();
+    penumbra::ShadowCode code;
+    code.HasSeveral = entries.size() > 1;
+    code.HasProxy = std::any_of(entries.begin(), entries.end(),
+      [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
+    code.ShowsRadiance = this->Shading == vtkSoftShadowPass::RADIANCE;
+    code.IsMatte = this->IsMatte;
+    return code;
   }
 };
 
@@ -123,6 +137,14 @@ void MakeShownTexture(
       shown.Factors->Make(window, texture, ambient, GetLargestFactor(scene, ambient));
   }
   state->Pop();
+  if (shown.HasShownTexture && shown.CountEntries() > 1)
+  {
+    if (!shown.Table)
+    {
+      shown.Table = vtkSmartPointer<vtkReceiverTable>::New();
+    }
+    shown.HasShownTexture = shown.Table->Update(window, penumbra::MakeReceiverRecords(shown.Baked));
+  }
 }
 
 /// True if an actor's material has no specular part.
@@ -163,7 +185,14 @@ struct vtkSoftShadowPass::Internals
   vtkTimeStamp ShaderTime;
   /// While the delegate draws:
   vtkRenderer* Renderer = nullptr;
-  int TextureUnit = -1;
+  enum Unit
+  {
+    ShownUnit,   ///< of what is shown
+    RecordsUnit, ///< of tables of several receivers
+    GridUnit,
+    NumberOfUnits
+  };
+  std::vector<int> Units; ///< of textures: all of them, or none
 
   /// What a prop shows; nullptr if that was released since the delegate began.
   const ShownProp* Find(vtkProp* prop) const
@@ -172,6 +201,40 @@ struct vtkSoftShadowPass::Internals
     const int index = keys && keys->Has(RECEIVER_INDEX()) ? keys->Get(RECEIVER_INDEX()) : -1;
     const bool isThere = index >= 0 && index < static_cast<int>(this->Shown.size());
     return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
+  }
+
+  /// If there is anything to show.
+  void AllocateUnits(vtkTextureUnitManager* units)
+  {
+    while (!this->Shown.empty() && this->Units.size() < NumberOfUnits)
+    {
+      this->Units.push_back(units->Allocate());
+      if (this->Units.back() < 0)
+      {
+        this->Units.pop_back();
+        this->FreeUnits(units);
+        return;
+      }
+    }
+  }
+
+  void FreeUnits(vtkTextureUnitManager* units)
+  {
+    for (const int unit : this->Units)
+    {
+      units->Free(unit);
+    }
+    this->Units.clear();
+  }
+
+  /// Gives a texture to a shader's sampler.
+  void Bind(vtkShaderProgram* program, const char* sampler, Unit which, unsigned int kind,
+    vtkTextureObject* texture) const
+  {
+    const int unit = this->Units[which];
+    this->Window->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(unit));
+    glBindTexture(kind, texture->GetHandle());
+    program->SetUniformi(sampler, unit);
   }
 };
 
@@ -259,16 +322,16 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
 
   vtkTextureUnitManager* units = window->GetState()->GetTextureUnitManager();
   this->Impl->Renderer = renderer;
-  this->Impl->TextureUnit = this->Impl->Shown.empty() ? -1 : units->Allocate();
+  this->Impl->AllocateUnits(units);
   std::vector<vtkProp*> props;
-  if (this->Impl->TextureUnit >= 0)
+  if (!this->Impl->Units.empty())
   {
     props = this->MarkReceivers();
   }
   else if (!this->Impl->Shown.empty())
   {
-    vtkErrorMacro(
-      "No texture unit is free, and one is needed. Receivers are drawn without shadows.");
+    vtkErrorMacro("Three free texture units are needed, and there are not so many. Receivers are "
+                  "drawn without shadows.");
   }
   vtkRenderState receivers(renderer);
   receivers.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
@@ -279,11 +342,7 @@ void vtkSoftShadowPass::Render(const vtkRenderState* s)
   this->PostRender(&receivers);
   this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
 
-  if (this->Impl->TextureUnit >= 0)
-  {
-    units->Free(this->Impl->TextureUnit);
-  }
-  this->Impl->TextureUnit = -1;
+  this->Impl->FreeUnits(units);
   this->Impl->Renderer = nullptr;
 }
 
@@ -346,18 +405,11 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   const double keptBytes = this->Impl->Budget.GetBytesLeftPerTexel(windowTexels);
   std::size_t place = 0;
   bool isBaked = false;
-  const std::size_t maximum = penumbra::GetMaximumReceivers(window);
   for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
   {
     std::vector<std::size_t> receivers = own;
     receivers.insert(receivers.end(), windows[place].begin(), windows[place].end());
     ++place;
-    if (receivers.size() > maximum)
-    {
-      vtkErrorMacro("A surface has " << receivers.size() << " planar receivers; allowed: "
-                                     << maximum << ". Divide it. It is drawn without shadows.");
-      continue;
-    }
     ShownProp shown = TakeShown(before, prop);
     const int shading = this->GetShadingOf(prop);
     shown.Baked->SetKeptBytesPerTexel(keptBytes);
@@ -486,8 +538,7 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
 std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddWindows(
   std::vector<penumbra::ReceiverPlan>& plans)
 {
-  // Each window costs every fragment of its prop a look, and half of what memory is left is theirs.
-  constexpr std::size_t MostWindows = 48;
+  // Half of what memory is left is theirs.
   std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
   double left = 0.5 * this->Impl->Budget.GetBytesLeft() / penumbra::ShadowScene::BytesPerTexel;
   std::vector<std::vector<std::size_t>> added;
@@ -498,7 +549,7 @@ std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddWindows(
     {
       const std::vector<penumbra::FineWindow> windows =
         penumbra::LimitWindows(plans[i].Fine.Windows, std::min(left, penumbra::MostFineTexels));
-      if (receivers[i].ProxyCentre || added.back().size() + windows.size() > MostWindows)
+      if (receivers[i].ProxyCentre)
       {
         continue; // its own texels take their mean
       }
@@ -542,7 +593,7 @@ void vtkSoftShadowPass::ChooseShading()
     if (shown.Baked->HasTexture() && (isOther || !shown.WasTried))
     {
       MakeShownTexture(shown, this->Impl->Scene, this->Impl->Window);
-      if (!penumbra::CompilesShadowCode(shown.CountEntries(), this->Impl->Window))
+      if (!penumbra::CompilesShadowCode(shown.GetCode(), this->Impl->Window))
       {
         vtkErrorMacro("The shader code that shows shadows on "
           << shown.CountReceivers() << " receivers did not compile. They are drawn without "
@@ -579,15 +630,7 @@ bool vtkSoftShadowPass::PostReplaceShaderValues(std::string& vertexShader,
   {
     return true;
   }
-  const std::vector<vtkBakedProp::Entry>& entries = found->Baked->GetEntries();
-  penumbra::ShadowCode code;
-  code.Receivers = entries.size();
-  code.Windows = found->Baked->CountWindows();
-  code.HasProxy = std::any_of(entries.begin(), entries.end(),
-    [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
-  code.ShowsRadiance = found->Shading == RADIANCE;
-  code.IsMatte = found->IsMatte;
-  penumbra::AddShadowCode(code, vertexShader, geometryShader, fragmentShader);
+  penumbra::AddShadowCode(found->GetCode(), vertexShader, geometryShader, fragmentShader);
   return true;
 }
 
@@ -600,20 +643,26 @@ bool vtkSoftShadowPass::SetShaderParameters(vtkShaderProgram* program,
     return true;
   }
   const ShownProp& shown = *found;
-  vtkOpenGLState* state = this->Impl->Window->GetState();
-  state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(this->Impl->TextureUnit));
-  vtkRadianceTexture* radiance = shown.Baked->GetTexture();
-  vtkTextureObject* texture =
-    shown.Shading == RADIANCE ? radiance->GetIrradiance() : shown.Factors->GetTexture();
-  glBindTexture(GL_TEXTURE_2D, texture->GetHandle());
-  program->SetUniformi("penumbraTexture", this->Impl->TextureUnit);
-
+  vtkTextureObject* texture = shown.Shading == RADIANCE ? shown.Baked->GetTexture()->GetIrradiance()
+                                                        : shown.Factors->GetTexture();
+  this->Impl->Bind(program, "penumbraTexture", Internals::ShownUnit, GL_TEXTURE_2D, texture);
   if (shown.Factors)
   {
     program->SetUniformf("penumbraScale", shown.Factors->GetScale());
   }
-  penumbra::SetReceiverUniforms(
-    program, shown.Baked, penumbra::ScreenMatrices(this->Impl->Renderer));
+  const penumbra::ScreenMatrices matrices(this->Impl->Renderer);
+  if (shown.GetCode().HasSeveral)
+  {
+    this->Impl->Bind(program, "penumbraRecords", Internals::RecordsUnit, GL_TEXTURE_BUFFER,
+      shown.Table->GetRecords());
+    this->Impl->Bind(
+      program, "penumbraGrid", Internals::GridUnit, GL_TEXTURE_BUFFER, shown.Table->GetGrid());
+    penumbra::SetReceiverUniforms(program, shown.Table, matrices);
+  }
+  else
+  {
+    penumbra::SetReceiverUniforms(program, shown.Baked->GetEntries().front(), matrices);
+  }
   return true;
 }
 

@@ -8,79 +8,179 @@
 // PENUMBRA_VARYING if the vertex shader itself can hand on (u, v), which is cheapest. Otherwise the position is
 // gl_FragCoord, from which the map is projective: it depends on no other shader.
 //
-// Where a plane stands for a surface (PENUMBRA_PROXY is defined then, if positions are of the view), the map also
-// projects the fragment onto that plane, from the lights' centre (H&H 1997, figure 5).
+// PENUMBRA_SEVERAL: the actor has several receivers, and a table says which of them are near a fragment.
+//
+// Where a plane stands for a surface (PENUMBRA_PROXY is defined then), the fragment is also projected onto that plane,
+// from the lights' centre (H&H 1997, figure 5).
 
 uniform sampler2D penumbraTexture; // for shadows, vtkShadowFactors; for radiance, the irradiance over pi
 uniform float penumbraScale;       // of the factors
-#ifdef PENUMBRA_VIEW
-#define PENUMBRA_MAPS penumbraViewMaps
-#else
-#define PENUMBRA_MAPS penumbraScreenMaps
-#endif
-uniform mat4 PENUMBRA_MAPS[PENUMBRA_RECEIVERS];  // (position, 1) to (u q, v q, h q, q), with h = 0 on the plane
-uniform vec4 penumbraPlaces[PENUMBRA_RECEIVERS]; // (u, v) to texture coordinates: origin, size
-uniform vec4 penumbraAmbient[PENUMBRA_RECEIVERS]; // a: what u + v may be at most: 1 for half of a slot
-uniform vec3 penumbraReflectance[PENUMBRA_RECEIVERS];
-#ifdef PENUMBRA_VARYING
-in vec2 penumbraUVVSOutput;
+
+#ifdef PENUMBRA_SEVERAL
+
+uniform samplerBuffer penumbraRecords; // vtkReceiverTable, which says what is in it
+uniform usamplerBuffer penumbraGrid;   // penumbra::ReceiverGrid, too
+uniform vec3 penumbraGridScale;        // from the table's frame to the grid's box
+uniform vec3 penumbraGridOffset;
+uniform vec3 penumbraGridCells;        // of the outermost grid
+uniform mat3 penumbraFromView;         // directions of the view, in the table's frame
+uniform vec3 penumbraEye;              // where the view's origin is in its frame
+uniform vec3 penumbraEyeRest;          // what single precision leaves of that
+#ifndef PENUMBRA_VIEW
+uniform mat4 penumbraToView;           // gl_FragCoord to the view, homogeneous
+uniform vec4 penumbraSight;            // where the camera looks, in the table's frame; w: 1 if rays are parallel
 #endif
 
-vec4 penumbraTransform(mat4 map, vec4 position)
+const uint PenumbraList = 0x40000000u; // words of penumbra::ReceiverGrid
+const uint PenumbraReceiver = 0x80000000u;
+const uint PenumbraMoreFollow = 0x40000000u;
+
+// Where in the grid the first receiver is named that is near a place of the table's frame, and its word. There is one
+// loop, and one in penumbraLookUp(): software OpenGL runs through each at least once for every fragment.
+int penumbraFindCell(vec3 place, out uint word)
 {
-#if defined(PENUMBRA_VIEW) && !defined(PENUMBRA_PROXY)
-  return vec4(mat4x3(map) * position, 1.0); // q = 1: the compiler drops the divisions
+  vec3 cells = penumbraGridCells;
+  vec3 inGrid = clamp(place * penumbraGridScale + penumbraGridOffset, 0.0, 1.0);
+  int at = 0;
+  word = 0u;
+  do
+  {
+    inGrid *= cells;
+    vec3 cell = min(floor(inGrid), cells - 1.0);
+    at = word < PenumbraList ? int(word) + int(cell.x + cells.x * (cell.y + cells.y * cell.z))
+                             : int(word - PenumbraList);
+    word = texelFetch(penumbraGrid, at).r;
+    inGrid -= cell;
+    cells = vec3(4.0);
+  } while (word < PenumbraReceiver);
+  return at;
+}
+
+// A receiver of the table, and where a fragment is in its frame.
+struct PenumbraPlace
+{
+  vec3 toU, toV; // from places of the table's frame
+  vec3 uvh;
+  float limit;   // what u + v may be at most: 1 for half of a slot
+  float distance;
+};
+
+PenumbraPlace penumbraReadReceiver(int first, vec3 fromEye)
+{
+  vec4 u = texelFetch(penumbraRecords, first);
+  vec4 v = texelFetch(penumbraRecords, first + 1);
+  vec4 h = texelFetch(penumbraRecords, first + 2);
+  vec4 rest = texelFetch(penumbraRecords, first + 3);
+  // The eye relative to the receiver's corner comes first: where they are near each other, nothing is lost.
+  vec3 place = fromEye + ((penumbraEye - vec3(u.w, v.w, h.w)) + penumbraEyeRest);
+  PenumbraPlace receiver;
+  receiver.toU = u.xyz;
+  receiver.toV = v.xyz;
+  receiver.uvh = vec3(dot(u.xyz, place), dot(v.xyz, place), dot(h.xyz, place)) + rest.xyz;
+  receiver.limit = abs(rest.w);
+#ifdef PENUMBRA_PROXY
+  vec4 projection = texelFetch(penumbraRecords, first + 7);
+  bool isProxy = projection.w > 0.0;
 #else
-  return map * position;
+  const bool isProxy = false;
 #endif
+#ifndef PENUMBRA_VIEW
+  // Depth has few digits, so the ray decides where the fragment is on the plane.
+  vec3 sight = penumbraSight.w > 0.0 ? penumbraSight.xyz : fromEye;
+  float falls = dot(h.xyz, sight);
+  if (!isProxy && falls != 0.0)
+  {
+    receiver.uvh.xy -= receiver.uvh.z / falls * vec2(dot(u.xyz, sight), dot(v.xyz, sight));
+  }
+#endif
+#ifdef PENUMBRA_PROXY
+  if (isProxy)
+  {
+    receiver.uvh.xy = (receiver.uvh.xy - projection.xy * receiver.uvh.z) / (1.0 - projection.z * receiver.uvh.z);
+    receiver.uvh.z = PENUMBRA_PROXY;
+  }
+#endif
+  // The height weighs more than what lies beside the receiver. Windows of finer texels come before the receivers that
+  // they lie in, for all that rounding does to heights.
+  vec2 outside = abs(receiver.uvh.xy - 0.5);
+  float beyond = max(max(outside.x, outside.y), receiver.uvh.x + receiver.uvh.y - receiver.limit + 0.5);
+  receiver.distance = max(beyond, 0.5) + 4.0 * abs(receiver.uvh.z) - (rest.w < 0.0 ? 1.0e-3 : 0.0);
+  return receiver;
 }
 
 // The texel at the fragment, and its receiver's settings: what is not used costs nothing.
 vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
 {
-  ambient = penumbraAmbient[0].rgb;
-  reflectance = penumbraReflectance[0];
-#if defined(PENUMBRA_VARYING)
-  return texture(penumbraTexture, penumbraUVVSOutput).rgb; // one receiver fills its texture, which clamps to its edge
-#elif PENUMBRA_RECEIVERS == 1
-  vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[0], position);
-  return texture(penumbraTexture, uvhq.xy / uvhq.w).rgb;
+#ifdef PENUMBRA_VIEW
+  vec3 inView = position.xyz;
 #else
-  // Of several receivers, the one that is closest to the fragment. What belongs to it is kept on the way: an array
-  // with an index that differs between fragments is slow to read. The height weighs more than what lies beside the
-  // receiver, so that all pixels of a quad that a triangle's edge crosses find the same one: their differences give
-  // the mip level. Where they do not, the gutters of the atlas keep the receivers apart.
-  vec2 uv = vec2(0.0);
-  vec4 place = penumbraPlaces[0];
-  float limit = penumbraAmbient[0].a;
-  float nearest = 3.0e38;
-  for (int i = 0; i < PENUMBRA_RECEIVERS; ++i)
-  {
-#if PENUMBRA_WINDOWS > 0
-    // The first are windows of finer texels in the others: where a fragment lies in both, they come before these,
-    // for all that rounding does to heights.
-    nearest -= i == PENUMBRA_WINDOWS ? 1.0e-3 : 0.0;
+  vec4 homogeneous = penumbraToView * position;
+  vec3 inView = homogeneous.xyz / homogeneous.w;
 #endif
-    vec4 uvhq = penumbraTransform(PENUMBRA_MAPS[i], position);
-    vec3 uvh = uvhq.xyz / uvhq.w;
-    vec2 outside = abs(uvh.xy - 0.5);
-    float beyond = max(max(outside.x, outside.y), uvh.x + uvh.y - penumbraAmbient[i].a + 0.5);
-    float distance = max(beyond, 0.5) + 4.0 * abs(uvh.z);
-    if (distance < nearest)
+  vec3 fromEye = penumbraFromView * inView;
+  uint word;
+  int at = penumbraFindCell(fromEye + penumbraEye, word);
+  int first = 0;
+  PenumbraPlace nearest;
+  nearest.distance = 3.0e38;
+  for (;;)
+  {
+    int record = PENUMBRA_RECORD * int(word & (PenumbraMoreFollow - 1u));
+    PenumbraPlace receiver = penumbraReadReceiver(record, fromEye);
+    if (receiver.distance < nearest.distance)
     {
-      nearest = distance;
-      uv = uvh.xy;
-      place = penumbraPlaces[i];
-      limit = penumbraAmbient[i].a;
-      ambient = penumbraAmbient[i].rgb;
-      reflectance = penumbraReflectance[i];
+      nearest = receiver;
+      first = record;
     }
+    if (word < PenumbraReceiver + PenumbraMoreFollow)
+    {
+      break;
+    }
+    word = texelFetch(penumbraGrid, ++at).r;
   }
-  uv = clamp(uv, 0.0, 1.0);
-  uv -= 0.5 * max(uv.x + uv.y - limit, 0.0); // it stays within [0, 1]^2
-  return texture(penumbraTexture, place.xy + uv * place.zw).rgb;
+  ambient = texelFetch(penumbraRecords, first + 5).rgb;
+  reflectance = texelFetch(penumbraRecords, first + 6).rgb;
+  vec4 place = texelFetch(penumbraRecords, first + 4);
+  vec2 uv = clamp(nearest.uvh.xy, 0.0, 1.0);
+  uv -= 0.5 * max(uv.x + uv.y - nearest.limit, 0.0); // it stays within [0, 1]^2
+  // How (u, v) changes from pixel to pixel is asked of the receiver of this pixel: its neighbours may have found others.
+  vec3 right = penumbraFromView * dFdx(inView);
+  vec3 up = penumbraFromView * dFdy(inView);
+  return textureGrad(penumbraTexture, place.xy + uv * place.zw,
+    place.zw * vec2(dot(nearest.toU, right), dot(nearest.toV, right)),
+    place.zw * vec2(dot(nearest.toU, up), dot(nearest.toV, up))).rgb;
+}
+
+#else
+
+#ifdef PENUMBRA_VIEW
+#define PENUMBRA_MAP penumbraViewMap
+#else
+#define PENUMBRA_MAP penumbraScreenMap
+#endif
+uniform mat4 PENUMBRA_MAP; // (position, 1) to (u q, v q, h q, q), with h = 0 on the plane
+uniform vec3 penumbraAmbient;
+uniform vec3 penumbraReflectance;
+#ifdef PENUMBRA_VARYING
+in vec2 penumbraUVVSOutput;
+#endif
+
+// The texel at the fragment, and its receiver's settings. The only receiver fills its texture, which clamps to its edge.
+vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
+{
+  ambient = penumbraAmbient;
+  reflectance = penumbraReflectance;
+#if defined(PENUMBRA_VARYING)
+  return texture(penumbraTexture, penumbraUVVSOutput).rgb;
+#elif defined(PENUMBRA_VIEW) && !defined(PENUMBRA_PROXY)
+  return texture(penumbraTexture, (PENUMBRA_MAP * position).xy).rgb; // q = 1
+#else
+  vec4 uvhq = PENUMBRA_MAP * position;
+  return texture(penumbraTexture, uvhq.xy / uvhq.w).rgb;
 #endif
 }
+
+#endif
 
 // The factor of the diffuse shade.
 vec3 penumbraShadow(vec4 position)
