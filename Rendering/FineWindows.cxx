@@ -13,7 +13,7 @@ namespace
 {
 
 /// Texels across a shadow's thickness: below the first it needs a window, which has the second.
-constexpr double FewTexels = 32.0, WindowTexels = 64.0;
+constexpr double FewTexels = 16.0, WindowTexels = 32.0;
 /// Shadows that are thinner than this part of their length are of lines or of surfaces that are
 /// seen edge on: next to nothing is in shadow.
 constexpr double ThinnestShare = 1.0 / 512.0;

@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 vtkStandardNewMacro(vtkRadianceBaker);
@@ -258,19 +257,19 @@ void vtkRadianceBaker::WarnOfGrowth(const penumbra::WindowPlan& fine, std::size_
 {
   // Half as many texels across a shadow are still enough to tell its area by.
   constexpr double MostGrowth = 2.0;
-  std::ostringstream text;
-  if (fine.Growth > MostGrowth)
+  if (fine.Growth > 1.0 && fine.Growth <= MostGrowth)
   {
-    text << "Receiver " << receiver << " has shadows that are small against its texels. They need "
-         << fine.NeededTexels << " finer ones; allowed: " << penumbra::MostFineTexels
-         << ". Those that are used are " << fine.Growth
-         << " times as large along each edge. Set a TexelSize, or divide the receiver.";
-    if (text.str() != this->GrowthWarning)
-    {
-      vtkWarningMacro(<< text.str());
-    }
+    this->Grown.erase(receiver);
   }
-  this->GrowthWarning = text.str();
+  else if (fine.Growth > MostGrowth && this->Grown.insert(receiver).second)
+  {
+    vtkWarningMacro(
+      "Receiver " << receiver << " has shadows that are small against its texels. They need "
+                  << fine.NeededTexels << " finer ones; allowed: " << penumbra::MostFineTexels
+                  << ". Those that are used are " << fine.Growth
+                  << " times as large along each edge. Set a "
+                  << "TexelSize, or divide the receiver.");
+  }
 }
 
 bool vtkRadianceBaker::BakeWithout(Job& job, const penumbra::TexelRectangle& rectangle,

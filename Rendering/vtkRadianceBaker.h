@@ -29,6 +29,7 @@
 #include "vtkSmartPointer.h"     // for masks
 
 #include <optional>
+#include <set>    // for warnings
 #include <string> // for reports
 #include <vector> // for reports
 
@@ -213,7 +214,9 @@ private:
   vtkNew<vtkRadianceResolver> Resolver;
   std::optional<penumbra::PolygonVisibility> Exact; ///< of the light that is resolved
   penumbra::TimedDrawing Drawing;                   ///< of DrawMasksUntil()
-  std::string GrowthWarning;                        ///< the last one: it comes once
+  /// Receivers whose finer texels are fewer than shadows ask for: that is said once for as long as
+  /// it is so.
+  std::set<std::size_t> Grown;
 };
 
 #endif
