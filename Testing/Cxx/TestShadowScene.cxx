@@ -54,7 +54,7 @@ Receiver Rectangle(double x, double y, double texelSize)
 glm::ivec2 TexelsOf(const Receiver& receiver)
 {
   ShadowScene scene;
-  scene.Receivers = { receiver };
+  scene.Receivers = std::vector<Receiver>{ receiver };
   EXPECT_EQ(scene.ChooseTexels(0), 1.0);
   return scene.Receivers[0].Texels;
 }
@@ -114,7 +114,7 @@ TEST(ChooseTexels, TakesNoTexelForARounding)
 TEST(ChooseTexels, LeavesEarlierReceiversAlone)
 {
   ShadowScene scene;
-  scene.Receivers = { Rectangle(1.0, 1.0, 0.5), Rectangle(1.0, 1.0, 0.25) };
+  scene.Receivers = std::vector<Receiver>{ Rectangle(1.0, 1.0, 0.5), Rectangle(1.0, 1.0, 0.25) };
   scene.Receivers[0].Texels = { 77, 78 };
   EXPECT_EQ(scene.ChooseTexels(1), 1.0);
   EXPECT_EQ(scene.Receivers[0].Texels, glm::ivec2(77, 78));
@@ -152,7 +152,7 @@ TEST(ChooseTexels, GrowsTexelsToKeepTheTextureBelowItsBytes)
     Receiver receiver = Rectangle(3.0, 2.0, 1e-4);
     receiver.Settings.Supersampling = supersampling;
     ShadowScene scene;
-    scene.Receivers = { receiver };
+    scene.Receivers = std::vector<Receiver>{ receiver };
     ExpectJustWithinTheLimits(scene);
     scene.Receivers.assign(6, receiver); // a box's faces share a texture
     ExpectJustWithinTheLimits(scene);
@@ -162,9 +162,9 @@ TEST(ChooseTexels, GrowsTexelsToKeepTheTextureBelowItsBytes)
 TEST(ChooseTexels, GrowsTexelsToKeepTheTextureBelowItsSide)
 {
   ShadowScene scene;
-  scene.Receivers = { Rectangle(100.0, 0.5, 1e-3) };
+  scene.Receivers = std::vector<Receiver>{ Rectangle(100.0, 0.5, 1e-3) };
   ExpectJustWithinTheLimits(scene);
-  scene.Receivers = { Rectangle(0.002, 100.0, 1e-3) };
+  scene.Receivers = std::vector<Receiver>{ Rectangle(0.002, 100.0, 1e-3) };
   ExpectJustWithinTheLimits(scene);
 }
 
@@ -173,7 +173,8 @@ TEST(ChooseTexels, KeepsTheLimitsForAbsurdTexels)
   for (const double texelSize : { 1e-12, 1e-100, 1e-300 })
   {
     ShadowScene scene;
-    scene.Receivers = { Rectangle(1.0, 1.0, texelSize), Rectangle(1e3, 1.0, texelSize) };
+    scene.Receivers =
+      std::vector<Receiver>{ Rectangle(1.0, 1.0, texelSize), Rectangle(1e3, 1.0, texelSize) };
     ExpectJustWithinTheLimits(scene);
   }
 }
@@ -183,7 +184,8 @@ TEST(ChooseTexels, KeepsTheLimitsForAbsurdTexels)
 TEST(ChooseTexels, KeepsTheLimitsForTheSmallestDouble)
 {
   ShadowScene scene;
-  scene.Receivers = { Rectangle(1.0, 1.0, std::numeric_limits<double>::denorm_min()) };
+  scene.Receivers =
+    std::vector<Receiver>{ Rectangle(1.0, 1.0, std::numeric_limits<double>::denorm_min()) };
   EXPECT_GT(scene.ChooseTexels(0), 1.0);
   EXPECT_LE(TotalBytes(scene), ShadowScene::MaximumTextureBytes);
   EXPECT_GT(scene.Receivers[0].Texels.x, 1000);
