@@ -7,9 +7,11 @@
 #ifndef OpenGLLoader_h
 #define OpenGLLoader_h
 
-#if VTK_MODULE_ENABLE_VTK_glad // VTK 9.4 and later
+#if __has_include("vtk_glad.h") // VTK 9.4 and later
+#define PENUMBRA_OPENGL_BY_GLAD 1
 #include "vtk_glad.h"
 #else
+#define PENUMBRA_OPENGL_BY_GLAD 0
 #include "vtk_glew.h"
 #endif
 

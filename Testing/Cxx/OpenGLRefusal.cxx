@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGLRefusal.h"
 
-#include "vtk_glew.h"
+#include "OpenGLLoader.h"
 
 #include <dlfcn.h>
 
 #include <array>
 #include <vector>
+
+/// The loader's pointer to one of OpenGL's functions. GLAD has one for each of them, GLEW only for
+/// those that are younger than OpenGL 1.2.
+#if PENUMBRA_OPENGL_BY_GLAD
+#define LOADED(name) glad_gl##name
+#else
+#define LOADED(name) __glew##name
+#endif
 
 namespace
 {
@@ -35,19 +43,18 @@ bool IsRefused(OpenGLCall call)
   return isRefused;
 }
 
-/// OpenGL's own function.
-template <typename Function>
-Function FindNext(const char* name)
-{
-  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
-}
-
 /// No size and no target: OpenGL raises an error.
 constexpr GLsizei NoSize = -1;
 constexpr GLenum NoTarget = GL_NONE;
 
+using TexImage2DFunction = void(GLAPIENTRY*)(
+  GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void*);
+using GetErrorFunction = GLenum(GLAPIENTRY*)();
+
 struct Functions
 {
+  TexImage2DFunction TexImage2D;
+  GetErrorFunction GetError;
   PFNGLTEXIMAGE3DPROC TexImage3D;
   PFNGLBUFFERDATAPROC BufferData;
   PFNGLTEXBUFFERPROC TexBuffer;
@@ -56,6 +63,20 @@ struct Functions
 };
 
 Functions Own;
+
+void GLAPIENTRY TexImage2D(GLenum target, GLint level, GLint internalFormat, GLsizei width,
+  GLsizei height, GLint border, GLenum format, GLenum type, const void* pixels)
+{
+  const bool isRefused = IsRefused(
+    { OpenGLCall::Texture, static_cast<unsigned int>(internalFormat), width, height, {}, 0 });
+  Own.TexImage2D(target, level, internalFormat, isRefused ? NoSize : width, height, border, format,
+    type, pixels);
+}
+
+GLenum GLAPIENTRY GetError()
+{
+  return Now.IsLost ? GL_CONTEXT_LOST : Own.GetError();
+}
 
 void GLAPIENTRY TexImage3D(GLenum target, GLint level, GLint internalFormat, GLsizei width,
   GLsizei height, GLsizei depth, GLint border, GLenum format, GLenum type, const void* pixels)
@@ -103,41 +124,74 @@ void GLAPIENTRY CompileShader(GLuint shader)
 
 } // namespace
 
+#if PENUMBRA_OPENGL_BY_GLAD
+namespace
+{
+void FindOldFunctions()
+{
+  Own.TexImage2D = LOADED(TexImage2D);
+  Own.GetError = LOADED(GetError);
+}
+void SetOldFunctions(TexImage2DFunction texImage2D, GetErrorFunction getError)
+{
+  LOADED(TexImage2D) = texImage2D;
+  LOADED(GetError) = getError;
+}
+} // namespace
+#else
+// Of what GLEW has no pointer to, the program has functions of its own, which come first.
+namespace
+{
+void FindOldFunctions()
+{
+  static const auto texImage2D =
+    reinterpret_cast<TexImage2DFunction>(dlsym(RTLD_NEXT, "glTexImage2D"));
+  static const auto getError = reinterpret_cast<GetErrorFunction>(dlsym(RTLD_NEXT, "glGetError"));
+  Own.TexImage2D = texImage2D;
+  Own.GetError = getError;
+}
+void SetOldFunctions(TexImage2DFunction /*texImage2D*/, GetErrorFunction /*getError*/) {}
+} // namespace
+
 extern "C" void GLAPIENTRY glTexImage2D(GLenum target, GLint level, GLint internalFormat,
   GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const void* pixels)
 {
-  static const auto own = FindNext<decltype(&glTexImage2D)>("glTexImage2D");
-  const bool isRefused = IsRefused(
-    { OpenGLCall::Texture, static_cast<unsigned int>(internalFormat), width, height, {}, 0 });
-  own(target, level, internalFormat, isRefused ? NoSize : width, height, border, format, type,
-    pixels);
+  FindOldFunctions();
+  TexImage2D(target, level, internalFormat, width, height, border, format, type, pixels);
 }
 
 extern "C" GLenum GLAPIENTRY glGetError()
 {
-  static const auto own = FindNext<decltype(&glGetError)>("glGetError");
-  return Now.IsLost ? GL_CONTEXT_LOST : own();
+  FindOldFunctions();
+  return GetError();
 }
+#endif
 
 OpenGLRefusal::OpenGLRefusal(const Choice& choice)
 {
-  Own = { __glewTexImage3D, __glewBufferData, __glewTexBuffer, __glewGenerateMipmap,
-    __glewCompileShader };
+  FindOldFunctions();
+  Own.TexImage3D = LOADED(TexImage3D);
+  Own.BufferData = LOADED(BufferData);
+  Own.TexBuffer = LOADED(TexBuffer);
+  Own.GenerateMipmap = LOADED(GenerateMipmap);
+  Own.CompileShader = LOADED(CompileShader);
   Now = { choice, {}, 0, false };
-  __glewTexImage3D = TexImage3D;
-  __glewBufferData = BufferData;
-  __glewTexBuffer = TexBuffer;
-  __glewGenerateMipmap = GenerateMipmap;
-  __glewCompileShader = CompileShader;
+  SetOldFunctions(TexImage2D, GetError);
+  LOADED(TexImage3D) = TexImage3D;
+  LOADED(BufferData) = BufferData;
+  LOADED(TexBuffer) = TexBuffer;
+  LOADED(GenerateMipmap) = GenerateMipmap;
+  LOADED(CompileShader) = CompileShader;
 }
 
 OpenGLRefusal::~OpenGLRefusal()
 {
-  __glewTexImage3D = Own.TexImage3D;
-  __glewBufferData = Own.BufferData;
-  __glewTexBuffer = Own.TexBuffer;
-  __glewGenerateMipmap = Own.GenerateMipmap;
-  __glewCompileShader = Own.CompileShader;
+  SetOldFunctions(Own.TexImage2D, Own.GetError);
+  LOADED(TexImage3D) = Own.TexImage3D;
+  LOADED(BufferData) = Own.BufferData;
+  LOADED(TexBuffer) = Own.TexBuffer;
+  LOADED(GenerateMipmap) = Own.GenerateMipmap;
+  LOADED(CompileShader) = Own.CompileShader;
   Now = {};
 }
 
@@ -148,10 +202,13 @@ int OpenGLRefusal::GetCount() const
 
 LostContext::LostContext()
 {
+  FindOldFunctions();
+  SetOldFunctions(Own.TexImage2D, GetError);
   Now.IsLost = true;
 }
 
 LostContext::~LostContext()
 {
+  SetOldFunctions(Own.TexImage2D, Own.GetError);
   Now.IsLost = false;
 }
