@@ -14,8 +14,8 @@
 #include "vtkAreaLightSource.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
-#include "vtkHeadlessOSMesaRenderWindow.h"
 #include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkPlaneSource.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -287,7 +287,7 @@ bool Judge(const Plan& plan, const std::vector<BakeResult>& bakes, const FrameRe
 
 int Run(const Plan& plan, const std::string& jsonPath)
 {
-  vtkNew<vtkHeadlessOSMesaRenderWindow> window;
+  const vtkSmartPointer<vtkOpenGLRenderWindow> window = MakeWindow();
   window->SetSize(800, 600);
   window->Render();
   if (!window->SupportsOpenGL())

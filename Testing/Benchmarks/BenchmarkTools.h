@@ -7,6 +7,10 @@
 #ifndef BenchmarkTools_h
 #define BenchmarkTools_h
 
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderWindow.h"
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -24,6 +28,12 @@ inline double GetMedian(std::vector<double> values)
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// A window that needs no display: OSMesa's, or VTK's own from 9.4 on.
+inline vtkSmartPointer<vtkOpenGLRenderWindow> MakeWindow()
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(vtkSmartPointer<vtkRenderWindow>::New());
 }
 
 /// Prints a line for what is not as required; the answer is whether it is.

@@ -11,8 +11,8 @@
 #include "RandomGeometry.h"
 #include "ShadowScene.h"
 
-#include "vtkHeadlessOSMesaRenderWindow.h"
 #include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRadianceBaker.h"
 #include "vtkRadianceTexture.h"
@@ -508,7 +508,7 @@ bool Judge(const Plan& plan, const Table& table)
 
 int Run(const Plan& plan, const std::string& jsonPath)
 {
-  vtkNew<vtkHeadlessOSMesaRenderWindow> window;
+  const vtkSmartPointer<vtkOpenGLRenderWindow> window = MakeWindow();
   window->Render();
   if (!window->SupportsOpenGL())
   {

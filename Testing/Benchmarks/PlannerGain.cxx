@@ -10,8 +10,8 @@
 
 #include "vtkAreaLightSource.h"
 #include "vtkBakedProp.h"
-#include "vtkHeadlessOSMesaRenderWindow.h"
 #include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkPlaneSource.h"
 #include "vtkRadianceBaker.h"
@@ -348,7 +348,7 @@ bool Judge(const Plan& plan, const std::vector<Gain>& gains, const FrameResult& 
 
 int Run(const Plan& plan, const std::string& jsonPath)
 {
-  vtkNew<vtkHeadlessOSMesaRenderWindow> window;
+  const vtkSmartPointer<vtkOpenGLRenderWindow> window = MakeWindow();
   window->SetSize(800, 600);
   window->Render();
   if (!window->SupportsOpenGL())
