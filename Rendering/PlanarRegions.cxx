@@ -338,8 +338,8 @@ bool Explains(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, con
     [&](const glm::dvec3& p) { return plane.GetHeight(p) <= tolerance; });
 }
 
-/// Lets the largest parts take in neighbours that the tolerance explains. A part that has no sure
-/// normal itself takes in none, so that a curve of tiny facets stays one.
+/// Lets the largest parts take in neighbours that the tolerance explains. On a curve the parts that
+/// are left still bend to each other, by which it is known as one (FindCurved).
 void TakeInNeighbours(
   const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, std::vector<Part>& parts)
 {
@@ -492,6 +492,12 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
       parts[a].Neighbours.push_back(b);
       parts[b].Neighbours.push_back(a);
     }
+  }
+  for (Part& part : parts)
+  {
+    std::vector<std::size_t>& all = part.Neighbours;
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   TakeInNeighbours(mesh, areas, parts);
   const std::vector<int> curvedBy = FindCurved(bends, parts, mesh.Polygons.size());
