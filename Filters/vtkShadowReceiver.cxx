@@ -57,6 +57,7 @@ int vtkShadowReceiver::RequestData(
   settings.Planner = this->Planner;
   settings.PlannerTolerance = this->PlannerTolerance;
   settings.HardPenumbra = this->HardPenumbra;
+  settings.PlanarityTolerance = this->PlanarityTolerance;
   settings.ProxyPlane = this->ProxyPlane;
   settings.ProxyMode = static_cast<penumbra::ProxyPlaneMode>(this->ProxyPlaneMode);
   settings.ProxyOrigin = glm::make_vec3(this->ProxyOrigin);
@@ -107,6 +108,7 @@ void vtkShadowReceiver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Planner: " << this->Planner << "\n";
   os << indent << "PlannerTolerance: " << this->PlannerTolerance << "\n";
   os << indent << "HardPenumbra: " << this->HardPenumbra << "\n";
+  os << indent << "PlanarityTolerance: " << this->PlanarityTolerance << "\n";
   os << indent << "ProxyPlane: " << this->ProxyPlane << "\n";
   os << indent << "ProxyPlaneMode: " << this->ProxyPlaneMode << "\n";
   print("ProxyOrigin", this->ProxyOrigin);

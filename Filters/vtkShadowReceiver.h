@@ -10,7 +10,7 @@
  * (Heckbert and Herf 1997, 3.4): exactly for parallelograms; a triangle fills the lower left half
  * of it; anything else lies in the smallest rectangle around it.
  *
- * A surface that is curved, or has no polygon with an area, is an error and passes without
+ * A surface that is curved all over, or has no polygon with an area, is an error and passes without
  * settings, but with the error as field data: it will be drawn plain, not baked, and nobody reports
  * it again. So is a property out of its range. With ProxyPlane, a curved surface receives by a
  * plane that stands for it. Data whose cells name points that are not there, which VTK cannot draw
@@ -220,6 +220,17 @@ public:
 
   ///@{
   /**
+   * How far, in world units, a face's points may be off its plane: coordinates that are rounded to
+   * centimetres need 0.02. With 0, what the type of the coordinates rounds, or 1e-4 of the face's
+   * extent, whichever is more. A face that is not planar is named in an error and drawn plain; the
+   * others receive. Allowed: 0 or more. Default is 0.
+   */
+  vtkSetMacro(PlanarityTolerance, double);
+  vtkGetMacro(PlanarityTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether a surface that is not planar receives by a plane that stands for it (Heckbert and Herf
    * 1997, figure 5): shadows are computed on the plane, and each point of the surface shows the one
    * at its projection from the light's centre. The whole surface is then one receiver. That is an
@@ -298,6 +309,7 @@ private:
   bool Planner = true;
   double PlannerTolerance = 1.0 / 1024.0;
   double HardPenumbra = 1.0;
+  double PlanarityTolerance = 0.0;
   bool ProxyPlane = false;
   int ProxyPlaneMode = BEST_FIT;
   double ProxyOrigin[3] = { 0.0, 0.0, 0.0 };

@@ -128,6 +128,10 @@ OccluderSelector::Part& OccluderSelector::GetPart(std::size_t surface)
     part.Contact = glm::dot(glm::abs(this->Frame.GetNormal()),
                      part.Uncertainty + RoundingsOfPlane * ownRounding) /
       this->Frame.GetSize();
+    if (surface == this->Base->Surface)
+    {
+      part.Contact += this->Base->Deviation / this->Frame.GetSize(); // of edges that both share
+    }
     part.Top = GetTop(shared.GetClusters().GetBounds(), this->Frame) + part.Contact;
   }
   return part;

@@ -188,8 +188,15 @@ std::vector<int> FindOriginals(const PolygonMesh& mesh)
   return originals;
 }
 
-/// Puts coplanar polygons with a common edge into one set; the answer is empty or what forbids it.
-std::string UniteCoplanarNeighbours(
+/// Two polygons that meet at an edge, and the angle at which they do.
+struct Bend
+{
+  int A, B;
+  double Angle;
+};
+
+/// Puts coplanar polygons with a common edge into one set; the answer is the bends that are left.
+std::vector<Bend> UniteCoplanarNeighbours(
   const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, DisjointSets& sets)
 {
   const std::vector<int> originals = FindOriginals(mesh);
@@ -199,7 +206,7 @@ std::string UniteCoplanarNeighbours(
   }
   const std::vector<Edge> edges = FindEdges(mesh, areas, originals);
   std::vector<std::pair<int, int>> slivers;
-  std::string problem;
+  std::vector<Bend> bends;
   VisitNeighbours(edges,
     [&](int a, int b)
     {
@@ -212,9 +219,9 @@ std::string UniteCoplanarNeighbours(
       {
         sets.Unite(a, b);
       }
-      else if (angle < FeatureAngle)
+      else
       {
-        problem = DescribeBend(a, b, angle);
+        bends.push_back({ a, b, angle });
       }
     });
   // A sliver goes with whatever it touches, but does not join a floor to a wall.
@@ -225,7 +232,7 @@ std::string UniteCoplanarNeighbours(
       sets.Unite(a, b);
     }
   }
-  return problem;
+  return bends;
 }
 
 /// The unit normal of the side to which more of the region's area points.
@@ -245,53 +252,212 @@ glm::dvec3 RegionNormal(const std::vector<glm::dvec3>& areas, const std::vector<
   return glm::normalize(balance < 0.0 ? -sum : sum);
 }
 
-/// Fits the region's parallelogram; the answer is empty or what is wrong with it.
-std::string FitRegion(
-  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, PlanarRegion& region)
+/// The polygons' points, each once.
+std::vector<glm::dvec3> GetPoints(const PolygonMesh& mesh, const std::vector<int>& polygons)
 {
   std::vector<int> ids;
-  for (const int p : region.Polygons)
+  for (const int p : polygons)
   {
     const std::vector<int>& polygon = mesh.Polygons[static_cast<std::size_t>(p)];
     ids.insert(ids.end(), polygon.begin(), polygon.end());
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-
   std::vector<glm::dvec3> points;
-  glm::dvec3 mean(0.0);
   for (const int id : ids)
   {
     points.push_back(mesh.Points[static_cast<std::size_t>(id)]);
-    mean += (points.back() - points.front()) / static_cast<double>(ids.size());
   }
-  mean += points.front();
+  return points;
+}
 
-  const glm::dvec3 normal = RegionNormal(areas, region.Polygons);
-  double extent = 0.0;
-  double stray = 0.0;
+/// The plane of some polygons.
+struct Plane
+{
+  glm::dvec3 Mean{ 0.0 }; ///< of the points
+  glm::dvec3 Normal{ 0.0 };
+  double Extent = 0.0;
+  double Stray = 0.0; ///< how far the farthest of its own points is off
+
+  double GetHeight(const glm::dvec3& p) const { return std::abs(glm::dot(p - Mean, Normal)); }
+};
+
+Plane FindPlane(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, const std::vector<int>& polygons)
+{
+  const std::vector<glm::dvec3> points = GetPoints(mesh, polygons);
+  Plane plane;
   for (const glm::dvec3& point : points)
   {
-    extent = std::max(extent, glm::length(point - points.front()));
-    stray = std::max(stray, std::abs(glm::dot(point - mean, normal)));
+    plane.Mean += (point - points.front()) / static_cast<double>(points.size());
   }
-  const double tolerance = PlanarityTolerance * extent + 2.0 * mesh.Rounding;
-  if (stray > tolerance)
+  plane.Mean += points.front();
+  plane.Normal = RegionNormal(areas, polygons);
+  for (const glm::dvec3& point : points)
+  {
+    plane.Extent = std::max(plane.Extent, 2.0 * glm::length(point - plane.Mean));
+    plane.Stray = std::max(plane.Stray, plane.GetHeight(point));
+  }
+  return plane;
+}
+
+double GetTolerance(const PolygonMesh& mesh, const Plane& plane)
+{
+  return 2.0 * mesh.Rounding +
+    (mesh.Tolerance > 0.0 ? mesh.Tolerance : AutomaticPlanarity * plane.Extent);
+}
+
+/// The polygons of a plane, or what remains of one that another has taken in.
+struct Part
+{
+  std::vector<int> Polygons;
+  Plane Shape;
+  std::vector<std::size_t> Neighbours; ///< those that it bends to by less than a box does
+  bool IsTaken = false;
+};
+
+/// Whether `part` lies in the plane, and has a normal that is no surer than what it differs by.
+bool Explains(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, const Plane& plane,
+  const Part& part)
+{
+  const double tolerance = GetTolerance(mesh, plane);
+  const double cosine = std::abs(glm::dot(plane.Normal, part.Shape.Normal));
+  const double angle = std::acos(std::min(1.0, cosine));
+  double area = 0.0;
+  for (const int p : part.Polygons)
+  {
+    area += glm::length(areas[static_cast<std::size_t>(p)]);
+  }
+  const double uncertainty = 2.0 * tolerance * part.Shape.Extent / area;
+  if (angle - uncertainty > CoplanarAngle)
+  {
+    return false;
+  }
+  const std::vector<glm::dvec3> points = GetPoints(mesh, part.Polygons);
+  return std::all_of(points.begin(), points.end(),
+    [&](const glm::dvec3& p) { return plane.GetHeight(p) <= tolerance; });
+}
+
+/// Lets the largest parts take in neighbours that the tolerance explains. On a curve the parts that
+/// are left still bend to each other, by which it is known as one (FindCurved).
+void TakeInNeighbours(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, std::vector<Part>& parts)
+{
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return parts[a].Shape.Extent > parts[b].Shape.Extent; });
+  for (const std::size_t seed : order)
+  {
+    const Plane plane = parts[seed].Shape;
+    if (parts[seed].IsTaken || plane.Stray > GetTolerance(mesh, plane))
+    {
+      continue;
+    }
+    std::vector<std::size_t> open = parts[seed].Neighbours;
+    while (!open.empty())
+    {
+      const std::size_t next = open.back();
+      open.pop_back();
+      Part& part = parts[next];
+      if (next == seed || part.IsTaken || part.Shape.Extent > plane.Extent ||
+        !Explains(mesh, areas, plane, part))
+      {
+        continue;
+      }
+      part.IsTaken = true;
+      std::vector<int>& all = parts[seed].Polygons;
+      all.insert(all.end(), part.Polygons.begin(), part.Polygons.end());
+      open.insert(open.end(), part.Neighbours.begin(), part.Neighbours.end());
+    }
+    std::sort(parts[seed].Polygons.begin(), parts[seed].Polygons.end());
+  }
+}
+
+/// Fits the region's parallelogram; the answer is empty or what is wrong with it.
+std::string FitRegion(
+  const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas, PlanarRegion& region)
+{
+  const Plane plane = FindPlane(mesh, areas, region.Polygons);
+  const double tolerance = GetTolerance(mesh, plane);
+  if (plane.Stray > tolerance)
   {
     std::ostringstream text;
     text << "it is not planar: the points of the region around polygon " << region.Polygons.front()
-         << " stray by " << stray << " from its plane; allowed: " << tolerance
-         << "; or ProxyPlane on, which approximates";
+         << " stray by " << plane.Stray << " from its plane; allowed: " << tolerance
+         << "; or a larger PlanarityTolerance, or ProxyPlane on, which approximates";
     return text.str();
   }
-  const std::optional<FittedParallelogram> base = FitParallelogram(points, normal, mesh.Rounding);
+  const std::vector<glm::dvec3> points = GetPoints(mesh, region.Polygons);
+  const std::optional<FittedParallelogram> base =
+    FitParallelogram(points, plane.Normal, mesh.Rounding);
   if (!base)
   {
     return "its points lie on a line; allowed: polygons that span an area";
   }
   region.Base = *base;
   region.IsTriangle = base->IsTriangle;
+  if (plane.Stray > ExactPlanarity * plane.Extent + 2.0 * mesh.Rounding)
+  {
+    const glm::dvec3 normal = glm::normalize(glm::cross(base->EdgeX, base->EdgeY));
+    for (const glm::dvec3& point : points)
+    {
+      region.Deviation =
+        std::max(region.Deviation, std::abs(glm::dot(point - base->Corner, normal)));
+    }
+  }
   return "";
+}
+
+/// The sets of coplanar polygons, in the order of their first ones; `partOf` gets that of each
+/// polygon that has an area.
+std::vector<Part> MakeParts(const PolygonMesh& mesh, const std::vector<glm::dvec3>& areas,
+  DisjointSets& sets, std::vector<std::size_t>& partOf)
+{
+  std::vector<Part> parts;
+  std::map<int, std::size_t> partOfSet;
+  partOf.assign(mesh.Polygons.size(), 0);
+  for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
+  {
+    if (glm::length(areas[p]) > 0.0)
+    {
+      partOf[p] = partOfSet.emplace(sets.Find(static_cast<int>(p)), parts.size()).first->second;
+      parts.resize(std::max(parts.size(), partOf[p] + 1));
+      parts[partOf[p]].Polygons.push_back(static_cast<int>(p));
+    }
+  }
+  for (Part& part : parts)
+  {
+    part.Shape = FindPlane(mesh, areas, part.Polygons);
+  }
+  return parts;
+}
+
+/// Of each polygon, the bend that makes its part curved, or -1.
+std::vector<int> FindCurved(
+  const std::vector<Bend>& bends, const std::vector<Part>& parts, std::size_t polygons)
+{
+  std::vector<int> owner(polygons, -1);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    for (const int p : parts[i].Polygons)
+    {
+      owner[static_cast<std::size_t>(p)] =
+        parts[i].IsTaken ? owner[static_cast<std::size_t>(p)] : static_cast<int>(i);
+    }
+  }
+  std::vector<int> curvedBy(parts.size(), -1);
+  for (std::size_t i = 0; i < bends.size(); ++i)
+  {
+    const int a = owner[static_cast<std::size_t>(bends[i].A)];
+    const int b = owner[static_cast<std::size_t>(bends[i].B)];
+    if (bends[i].Angle < FeatureAngle && a != b)
+    {
+      curvedBy[static_cast<std::size_t>(a)] = static_cast<int>(i);
+      curvedBy[static_cast<std::size_t>(b)] = static_cast<int>(i);
+    }
+  }
+  return curvedBy;
 }
 
 } // namespace
@@ -313,37 +479,63 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   {
     areas.push_back(AreaVector(mesh, polygon));
   }
-
   DisjointSets sets(areas);
-  result.Problem = UniteCoplanarNeighbours(mesh, areas, sets);
-  if (!result.Problem.empty())
+  const std::vector<Bend> bends = UniteCoplanarNeighbours(mesh, areas, sets);
+  std::vector<std::size_t> partOf;
+  std::vector<Part> parts = MakeParts(mesh, areas, sets, partOf);
+  for (const Bend& bend : bends)
   {
-    return result;
-  }
-  std::map<int, std::size_t> regionOfSet;
-  for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
-  {
-    if (glm::length(areas[p]) > 0.0)
+    const std::size_t a = partOf[static_cast<std::size_t>(bend.A)];
+    const std::size_t b = partOf[static_cast<std::size_t>(bend.B)];
+    if (bend.Angle < FeatureAngle)
     {
-      const auto found =
-        regionOfSet.emplace(sets.Find(static_cast<int>(p)), result.Regions.size()).first;
-      result.Regions.resize(std::max(result.Regions.size(), found->second + 1));
-      result.Regions[found->second].Polygons.push_back(static_cast<int>(p));
-      result.RegionOfPolygon[p] = static_cast<int>(found->second);
+      parts[a].Neighbours.push_back(b);
+      parts[b].Neighbours.push_back(a);
     }
   }
-  for (PlanarRegion& region : result.Regions)
+  for (Part& part : parts)
   {
-    result.Problem = FitRegion(mesh, areas, region);
-    if (!result.Problem.empty())
+    std::vector<std::size_t>& all = part.Neighbours;
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  TakeInNeighbours(mesh, areas, parts);
+  const std::vector<int> curvedBy = FindCurved(bends, parts, mesh.Polygons.size());
+
+  std::string problem;
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    if (parts[i].IsTaken)
     {
-      result.Regions.clear();
-      return result;
+      continue;
     }
+    PlanarRegion region;
+    region.Polygons = parts[i].Polygons;
+    const int curved = curvedBy[i];
+    const Bend bend = curved < 0 ? Bend{} : bends[static_cast<std::size_t>(curved)];
+    const std::string found =
+      curved < 0 ? FitRegion(mesh, areas, region) : DescribeBend(bend.A, bend.B, bend.Angle);
+    if (!found.empty())
+    {
+      problem = problem.empty() ? found : problem;
+      ++refused;
+      continue;
+    }
+    for (const int p : region.Polygons)
+    {
+      result.RegionOfPolygon[static_cast<std::size_t>(p)] = static_cast<int>(result.Regions.size());
+    }
+    result.Regions.push_back(std::move(region));
   }
   if (result.Regions.empty())
   {
-    result.Problem = NoAreaProblem;
+    result.Problem = problem.empty() ? NoAreaProblem : problem;
+  }
+  else if (refused > 0)
+  {
+    result.Refused = problem +
+      (refused > 1 ? " (and " + std::to_string(refused - 1) + " more parts are refused)" : "");
   }
   return result;
 }

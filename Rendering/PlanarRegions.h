@@ -24,6 +24,9 @@ struct PolygonMesh
   std::vector<std::vector<int>> Polygons;
   /// How far the coordinates may be off by the rounding of their type.
   double Rounding = 0.0;
+  /// How far a region's points may be off its plane; 0: AutomaticPlanarity of its extent. The
+  /// rounding comes on top.
+  double Tolerance = 0.0;
 };
 
 /// One receiver: a connected set of coplanar polygons.
@@ -32,6 +35,8 @@ struct PlanarRegion
   std::vector<int> Polygons;
   Parallelogram Base;
   bool IsTriangle = false; ///< it fills the lower left half of its base
+  /// How far its points are off the plane of its base; 0 where ExactPlanarity explains it.
+  double Deviation = 0.0;
 };
 
 /// The problem of a mesh with a coordinate that is not finite, or too large (Coordinates.h).
@@ -43,18 +48,24 @@ constexpr const char* NotFiniteProblem =
 constexpr const char* NoAreaProblem =
   "it has no polygon with an area; allowed: planar polygonal data";
 
-/// Of a region's extent: how far its points may stray from its plane.
-constexpr double PlanarityTolerance = 1e-5;
+/// Of a region's extent: how far its points may stray from its plane by default. A face of 10 m
+/// whose coordinates are rounded to millimetres is planar.
+constexpr double AutomaticPlanarity = 1e-4;
+/// Of a region's extent: points that stray by less are in its plane, as far as shadows go.
+constexpr double ExactPlanarity = 1e-5;
 
 /// What FindPlanarRegions() answers.
 struct PlanarRegions
 {
   std::vector<PlanarRegion> Regions;
-  /// Of each polygon, the index of its region; -1 for a polygon of no area.
+  /// Of each polygon, the index of its region; -1 for a polygon of no area or of a part that is not
+  /// planar.
   std::vector<int> RegionOfPolygon;
   /// Empty, or what makes the mesh unfit to receive shadows and what is allowed; then there are no
   /// regions.
   std::string Problem;
+  /// Empty, or what is wrong with the parts that are not planar, where others are.
+  std::string Refused;
 };
 
 /**
@@ -63,9 +74,14 @@ struct PlanarRegions
  * area points.
  *
  * Edges at which the surface bends by 30 degrees or more (vtkPolyDataNormals' default feature
- * angle) divide it, as those of a box do. A lesser bend means a curved surface, which is a problem,
- * and so is a region whose points stray from its plane by more than 1e-5 of its extent plus the
- * coordinates' rounding.
+ * angle) divide it, as those of a box do. A lesser bend means a curved surface, unless the
+ * tolerance explains it: the smaller side's points lie in the plane of the larger one, and its
+ * normal is as uncertain as that. Planes do not move while they grow, so that they do not creep
+ * round a curve.
+ *
+ * Parts that are curved, and regions whose points stray from their plane by more than the mesh's
+ * tolerance plus the coordinates' rounding, are refused. They are a problem if nothing else is
+ * left. A region's extent is twice the distance of its farthest point from the mean of its points.
  */
 PENUMBRARENDERING_EXPORT PlanarRegions FindPlanarRegions(const PolygonMesh& mesh);
 

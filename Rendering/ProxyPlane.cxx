@@ -179,7 +179,7 @@ bool NeedsProxyPlane(
   {
     return false;
   }
-  if (!found.Problem.empty())
+  if (!found.Problem.empty() || !found.Refused.empty())
   {
     return true;
   }
@@ -201,7 +201,7 @@ bool NeedsProxyPlane(
   }
   // As far from each other as two points may be that stray to opposite sides.
   return found.Regions.size() > 1 &&
-    stray > 2.0 * (PlanarityTolerance * extent + 2.0 * mesh.Rounding);
+    stray > 2.0 * (ExactPlanarity * extent + 2.0 * mesh.Rounding);
 }
 
 } // namespace penumbra

@@ -91,6 +91,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// It fills the lower left half of its base, where u + v <= 1: what is beyond is baked, but not
   /// shown.
   bool IsTriangle = false;
+  /// How far its own points are off its plane, in the world: what its surface has no higher above
+  /// it is no occluder of it.
+  double Deviation = 0.0;
   ReceiverSettings Settings;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };

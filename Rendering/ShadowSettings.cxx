@@ -51,7 +51,8 @@ bool ReceiverSettings::operator==(const ReceiverSettings& other) const
     return std::tie(s.TexelSize, s.LightSamples, s.SampleMultiplier, s.SamplingPattern,
       s.Supersampling, s.Reflectance, s.AmbientRadiance, s.Side, s.Seed, s.SolidAnglePerSample,
       s.ErrorTolerance, s.MaximumLightSamples, s.Reconstruction, s.ExactShares, s.Planner,
-      s.PlannerTolerance, s.HardPenumbra, s.ProxyPlane, s.ProxyMode, s.ProxyOrigin, s.ProxyNormal);
+      s.PlannerTolerance, s.HardPenumbra, s.PlanarityTolerance, s.ProxyPlane, s.ProxyMode,
+      s.ProxyOrigin, s.ProxyNormal);
   };
   return tie(*this) == tie(other);
 }
@@ -105,6 +106,11 @@ std::string ReceiverSettings::FindProblem() const
   {
     return Describe("HardPenumbra", this->HardPenumbra, "0 or a number of texels > 0");
   }
+  if (!(this->PlanarityTolerance >= 0.0) || !std::isfinite(this->PlanarityTolerance))
+  {
+    return Describe(
+      "PlanarityTolerance", this->PlanarityTolerance, "0 (automatic) or a length > 0");
+  }
   if (this->MaximumLightSamples < 1 || this->MaximumLightSamples > MostLightSamples)
   {
     return Describe("MaximumLightSamples", this->MaximumLightSamples, "1 to 65536");
@@ -143,6 +149,9 @@ ReceiverSettings ReceiverSettings::Transformed(const glm::dmat4& matrix) const
   ReceiverSettings result = *this;
   result.ProxyOrigin = glm::dvec3(matrix * glm::dvec4(this->ProxyOrigin, 1.0));
   result.ProxyNormal = glm::transpose(glm::inverse(glm::dmat3(matrix))) * this->ProxyNormal;
+  const glm::dmat3 linear(matrix);
+  result.PlanarityTolerance *=
+    std::max({ glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]) });
   return result;
 }
 

@@ -52,6 +52,7 @@ struct PENUMBRARENDERING_EXPORT ReceiverSettings
   bool Planner = true;
   double PlannerTolerance = 1.0 / 1024.0;
   double HardPenumbra = 1.0;
+  double PlanarityTolerance = 0.0;
 
   bool operator==(const ReceiverSettings& other) const;
   bool ProxyPlane = false;

@@ -38,6 +38,7 @@ void VisitReceiver(Settings& settings, Visitor&& visit)
   visit("Planner", settings.Planner);
   visit("PlannerTolerance", settings.PlannerTolerance);
   visit("HardPenumbra", settings.HardPenumbra);
+  visit("PlanarityTolerance", settings.PlanarityTolerance);
   visit("ProxyPlane", settings.ProxyPlane);
   visit("ProxyPlaneMode", settings.ProxyMode);
   visit("ProxyOrigin", settings.ProxyOrigin);

@@ -111,12 +111,13 @@ std::vector<int> MergePoints(const std::vector<glm::dvec3>& points)
 
 /// The polygons over the surface's points, of which those at the same place become one.
 /// A mirror turns their winding round: fronts stay fronts.
-penumbra::PolygonMesh MakePolygonMesh(
-  vtkPolyData* polygons, const penumbra::Surface& surface, bool isMirrored)
+penumbra::PolygonMesh MakePolygonMesh(vtkPolyData* polygons, const penumbra::Surface& surface,
+  const penumbra::ReceiverSettings& settings, bool isMirrored)
 {
   penumbra::PolygonMesh mesh;
   mesh.Points = surface.Points;
   mesh.Rounding = glm::length(surface.Rounding);
+  mesh.Tolerance = settings.PlanarityTolerance;
   if (!std::all_of(mesh.Points.begin(), mesh.Points.end(), penumbra::IsInRange))
   {
     return mesh; // a problem of its own
@@ -478,7 +479,7 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
   receiver.Settings = settings;
   if (problem.empty())
   {
-    const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, isMirrored);
+    const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, settings, isMirrored);
     found = penumbra::FindPlanarRegions(mesh);
     if (penumbra::NeedsProxyPlane(mesh, found, settings))
     {
@@ -496,12 +497,18 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
     return problem;
   }
 
+  if (!found.Refused.empty())
+  {
+    this->ReportError("Receiver '" + name + "': " + found.Refused +
+      ". That is drawn without shadows, and the rest with them.");
+  }
   const std::size_t first = this->Scene.Receivers.size();
   for (std::size_t i = 0; i < found.Regions.size(); ++i)
   {
     receiver.Region = static_cast<int>(i);
     receiver.Base = found.Regions[i].Base;
     receiver.IsTriangle = found.Regions[i].IsTriangle;
+    receiver.Deviation = found.Regions[i].Deviation;
     this->Scene.Receivers.push_back(receiver);
   }
   const double growth = this->Scene.ChooseTexels(first);
@@ -560,7 +567,7 @@ std::string vtkShadowSceneBuilder::FindReceiverProblem(
   vtkSmartPointer<vtkPolyData> polygons = WithoutStrips(data);
   penumbra::Surface surface;
   TransformPoints(polygons, glm::dmat4(1.0), surface);
-  const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, false);
+  const penumbra::PolygonMesh mesh = MakePolygonMesh(polygons, surface, settings, false);
   const penumbra::PlanarRegions found = penumbra::FindPlanarRegions(mesh);
   return penumbra::NeedsProxyPlane(mesh, found, settings)
     ? penumbra::FindProxyPlane(mesh, settings).Problem

@@ -30,7 +30,7 @@ using Polygon = std::vector<int>;
 
 const double Pi = std::acos(-1.0);
 // What PlanarRegions.h documents.
-constexpr double PlanarityTolerance = 1e-5;
+constexpr double PlanarityTolerance = 1e-4;
 
 // A mesh whose points at the same place are one, as FindPlanarRegions() asks for.
 class MeshBuilder
@@ -485,6 +485,94 @@ TEST(PlanarRegions, FloatBoxFarFromTheOriginHasSixRegions)
     }
     RoundToFloat(mesh);
     ExpectRegions(mesh, 6);
+  }
+}
+
+// A house with a gable roof, 10 m by 7 m, turned by `angle`, its coordinates rounded to `step`.
+void AddHouse(MeshBuilder& builder, const glm::dvec3& place, double angle, double step)
+{
+  const auto at = [&](double u, double v, double z)
+  {
+    const glm::dvec3 p = place +
+      glm::dvec3(
+        u * std::cos(angle) - v * std::sin(angle), u * std::sin(angle) + v * std::cos(angle), z);
+    return step * glm::round(p / step);
+  };
+  const std::array<glm::dvec2, 4> plan{ { { -5, -3.5 }, { 5, -3.5 }, { 5, 3.5 }, { -5, 3.5 } } };
+  std::array<glm::dvec3, 4> foot, eave;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    foot[i] = at(plan[i].x, plan[i].y, 0.0);
+    eave[i] = at(plan[i].x, plan[i].y, 5.3);
+  }
+  const glm::dvec3 west = at(-5, 0, 8.2), east = at(5, 0, 8.2);
+  builder.Add({ foot[0], foot[1], eave[1], eave[0] });
+  builder.Add({ foot[1], foot[2], eave[2], east, eave[1] });
+  builder.Add({ foot[2], foot[3], eave[3], eave[2] });
+  builder.Add({ foot[3], foot[0], eave[0], west, eave[3] });
+  builder.Add({ eave[0], eave[1], east, west });
+  builder.Add({ eave[2], eave[3], west, east });
+}
+
+PolygonMesh HousesMesh(double step, double offset)
+{
+  MeshBuilder builder;
+  for (int i = 0; i < 10; ++i)
+  {
+    AddHouse(builder, { offset + 20.0 * i, offset, 0.0 }, 0.3 + 0.37 * i, step);
+  }
+  return builder.Mesh;
+}
+
+// Of 7 m and more, 1e-4 is 0.7 mm and more: what the rounding to a millimetre moves is less.
+TEST(PlanarRegions, HousesInMillimetresHaveSixFacesEach)
+{
+  for (const double offset : { 0.0, 5e5 })
+  {
+    SCOPED_TRACE(offset);
+    ExpectRegions(HousesMesh(1e-3, offset), 60);
+  }
+}
+
+TEST(PlanarRegions, HousesInCentimetresAskForATolerance)
+{
+  PolygonMesh mesh = HousesMesh(1e-2, 0.0);
+  EXPECT_LT(FindPlanarRegions(mesh).Regions.size(), 60u);
+  mesh.Tolerance = 0.02;
+  ExpectRegions(mesh, 60);
+}
+
+// A corner that is half a metre off costs the faces that it warps: a wall, a gable and a roof at
+// most, and no more; one message says so.
+TEST(PlanarRegions, OneBadCornerCostsItsFacesAlone)
+{
+  PolygonMesh mesh = HousesMesh(1e-3, 0.0);
+  mesh.Points[3] += glm::dvec3(0.4, 0.3, 0.0);
+  const PlanarRegions found = FindPlanarRegions(mesh);
+  EXPECT_EQ(found.Problem, "");
+  EXPECT_GE(found.Regions.size(), 57u);
+  EXPECT_LT(found.Regions.size(), 60u);
+  EXPECT_NE(found.Refused.find("allowed: "), std::string::npos) << found.Refused;
+}
+
+// A tolerance that is wider than facets does not make patches of a curve planar.
+TEST(PlanarRegions, CurvesStayCurvedAtAnyTolerance)
+{
+  for (const double tolerance : { 0.005, 0.02, 0.05 })
+  {
+    SCOPED_TRACE(tolerance);
+    for (const int slices : { 16, 64 })
+    {
+      PolygonMesh sphere = SphereMesh(slices);
+      sphere.Tolerance = tolerance;
+      EXPECT_TRUE(FindPlanarRegions(sphere).Regions.empty()) << "sphere of " << slices;
+    }
+    for (const int sides : { 32, 100, 3600 })
+    {
+      PolygonMesh prism = PrismMesh(sides, 0.1);
+      prism.Tolerance = tolerance;
+      EXPECT_TRUE(FindPlanarRegions(prism).Regions.empty()) << "cylinder of " << sides;
+    }
   }
 }
 
