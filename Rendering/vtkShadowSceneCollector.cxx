@@ -8,12 +8,9 @@
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCuller.h"
-#include "vtkCullerCollection.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
-#include "vtkFrustumCoverageCuller.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -86,14 +83,14 @@ vtkMapper* GetFullMapper(vtkActor* actor)
   return actor->vtkActor::GetMapper();
 }
 
-/// The data of a mapper of surfaces, brought up to date unless they are; nullptr for other mappers.
-vtkDataObject* GetMappedData(vtkMapper* mapper, bool isUpToDate)
+/// The data of a mapper of surfaces, up to date; nullptr for other mappers.
+vtkDataObject* GetMappedData(vtkMapper* mapper)
 {
   if (!penumbra::IsKnown(mapper) && !CompositeMapper::SafeDownCast(mapper))
   {
     return nullptr;
   }
-  if (!isUpToDate && mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
+  if (mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
   }
@@ -114,52 +111,11 @@ bool IsMark(vtkActor* actor)
   return !IsDrawnAsSurface(actor) && !actor->GetPickable();
 }
 
-/// Whether the renderer has asked visible actors for their bounds in this frame, for which mappers
-/// bring their data up to date: that would be no less work once more than the rest of the look for
-/// what has changed.
-bool HasAskedForBounds(vtkRenderer* renderer)
-{
-  vtkCullerCollection* cullers = renderer->GetCullers();
-  vtkCollectionSimpleIterator it;
-  cullers->InitTraversal(it);
-  while (vtkCuller* culler = cullers->GetNextCuller(it))
-  {
-    if (vtkFrustumCoverageCuller::SafeDownCast(culler))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Calls visit(prop, part) if the actor, a prop of its own or a part of one, is a visible one of
-/// polygonal data. False if it is drawn by a level of detail while its data themselves are not at
-/// hand.
-template <typename Visitor>
-bool VisitActor(
-  vtkProp* prop, vtkActor* actor, vtkMatrix4x4* matrix, bool isUpToDate, Visitor&& visit)
-{
-  vtkMapper* mapper = GetFullMapper(actor);
-  if (!mapper || !actor->GetVisibility() || IsMark(actor) || vtkSkybox::SafeDownCast(actor))
-  {
-    return true;
-  }
-  // A level of detail has another mapper, whose bounds were asked for.
-  const bool isFull = mapper == actor->GetMapper();
-  if (vtkDataObject* data = GetMappedData(mapper, isUpToDate && isFull))
-  {
-    visit(prop, VisitedPart{ actor, IsDrawnAsSurface(actor), matrix, data, GetAttributes(mapper) });
-    return true;
-  }
-  return isFull || !GetMappedData(actor->GetMapper(), false);
-}
-
 /// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
 /// False if one of them is drawn by a level of detail while its data themselves are not at hand.
 template <typename Visitor>
 bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
 {
-  const bool isUpToDate = HasAskedForBounds(renderer);
   bool isAllAtHand = true;
   vtkCollectionSimpleIterator it;
   vtkPropCollection* props = renderer->GetViewProps();
@@ -170,18 +126,24 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       continue;
     }
-    if (auto* own = vtkActor::SafeDownCast(prop)) // its only path would be a copy of it
-    {
-      isAllAtHand = VisitActor(prop, own, own->GetMatrix(), isUpToDate, visit) && isAllAtHand;
-      continue;
-    }
     prop->InitPathTraversal();
     while (vtkAssemblyPath* path = prop->GetNextPath())
     {
       vtkAssemblyNode* node = path->GetLastNode();
-      if (auto* actor = vtkActor::SafeDownCast(node->GetViewProp()))
+      auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
+      vtkMapper* mapper = actor ? GetFullMapper(actor) : nullptr;
+      if (mapper && actor->GetVisibility() && !IsMark(actor) && !vtkSkybox::SafeDownCast(actor))
       {
-        isAllAtHand = VisitActor(prop, actor, node->GetMatrix(), false, visit) && isAllAtHand;
+        if (vtkDataObject* data = GetMappedData(mapper))
+        {
+          visit(prop,
+            VisitedPart{
+              actor, IsDrawnAsSurface(actor), node->GetMatrix(), data, GetAttributes(mapper) });
+        }
+        else if (mapper != actor->GetMapper() && GetMappedData(actor->GetMapper()))
+        {
+          isAllAtHand = false;
+        }
       }
     }
   }
