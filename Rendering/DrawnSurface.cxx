@@ -99,6 +99,10 @@ using Plane = std::array<double, 4>;
 std::vector<Plane> GetClippingPlanes(const DrawnActor& drawn)
 {
   std::vector<Plane> planes;
+  if (drawn.Mapper->GetNumberOfClippingPlanes() == 0)
+  {
+    return planes; // nearly always, in each frame
+  }
   vtkNew<vtkMatrix4x4> matrix;
   if (drawn.Matrix)
   {

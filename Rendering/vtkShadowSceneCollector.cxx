@@ -8,9 +8,12 @@
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCuller.h"
+#include "vtkCullerCollection.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
+#include "vtkFrustumCoverageCuller.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -83,14 +86,14 @@ vtkMapper* GetFullMapper(vtkActor* actor)
   return actor->vtkActor::GetMapper();
 }
 
-/// The data of a mapper of surfaces, up to date; nullptr for other mappers.
-vtkDataObject* GetMappedData(vtkMapper* mapper)
+/// The data of a mapper of surfaces, brought up to date unless they are; nullptr for other mappers.
+vtkDataObject* GetMappedData(vtkMapper* mapper, bool areUpToDate = false)
 {
   if (!penumbra::IsKnown(mapper) && !CompositeMapper::SafeDownCast(mapper))
   {
     return nullptr;
   }
-  if (mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
+  if (!areUpToDate && mapper->GetNumberOfInputConnections(0) > 0 && !mapper->GetStatic())
   {
     mapper->GetInputAlgorithm()->Update();
   }
@@ -111,12 +114,51 @@ bool IsMark(vtkActor* actor)
   return !IsDrawnAsSurface(actor) && !actor->GetPickable();
 }
 
+/// Whether the renderer asks its visible props for their bounds before it draws. An actor's mapper
+/// brings its data up to date for them: to ask for that again costs as much.
+bool AsksForBounds(vtkRenderer* renderer)
+{
+  vtkCollectionSimpleIterator it;
+  vtkCullerCollection* cullers = renderer->GetCullers();
+  cullers->InitTraversal(it);
+  while (vtkCuller* culler = cullers->GetNextCuller(it))
+  {
+    if (vtkFrustumCoverageCuller::SafeDownCast(culler))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Calls visit(prop, part) if the actor, the prop itself or a part of it, is a visible one of
+/// polygonal data. False if it is drawn by a level of detail while its data themselves are not at
+/// hand. `areUpToDate` tells that the mapper that draws it has been asked for its bounds.
+template <typename Visitor>
+bool VisitActor(
+  vtkProp* prop, vtkActor* actor, vtkMatrix4x4* matrix, bool areUpToDate, Visitor&& visit)
+{
+  vtkMapper* mapper = GetFullMapper(actor);
+  if (!mapper || !actor->GetVisibility() || IsMark(actor) || vtkSkybox::SafeDownCast(actor))
+  {
+    return true;
+  }
+  const bool isDrawnInFull = mapper == actor->GetMapper();
+  if (vtkDataObject* data = GetMappedData(mapper, areUpToDate && isDrawnInFull))
+  {
+    visit(prop, VisitedPart{ actor, IsDrawnAsSurface(actor), matrix, data, GetAttributes(mapper) });
+    return true;
+  }
+  return isDrawnInFull || !GetMappedData(actor->GetMapper());
+}
+
 /// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
 /// False if one of them is drawn by a level of detail while its data themselves are not at hand.
 template <typename Visitor>
 bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
 {
-  bool isAllAtHand = true;
+  const bool areUpToDate = AsksForBounds(renderer);
+  bool areAllAtHand = true;
   vtkCollectionSimpleIterator it;
   vtkPropCollection* props = renderer->GetViewProps();
   props->InitTraversal(it);
@@ -126,28 +168,23 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
     {
       continue;
     }
+    if (auto* actor = vtkActor::SafeDownCast(prop)) // its one path would be made anew each time
+    {
+      areAllAtHand =
+        VisitActor(prop, actor, actor->GetMatrix(), areUpToDate, visit) && areAllAtHand;
+      continue;
+    }
     prop->InitPathTraversal();
     while (vtkAssemblyPath* path = prop->GetNextPath())
     {
       vtkAssemblyNode* node = path->GetLastNode();
-      auto* actor = vtkActor::SafeDownCast(node->GetViewProp());
-      vtkMapper* mapper = actor ? GetFullMapper(actor) : nullptr;
-      if (mapper && actor->GetVisibility() && !IsMark(actor) && !vtkSkybox::SafeDownCast(actor))
+      if (auto* actor = vtkActor::SafeDownCast(node->GetViewProp()))
       {
-        if (vtkDataObject* data = GetMappedData(mapper))
-        {
-          visit(prop,
-            VisitedPart{
-              actor, IsDrawnAsSurface(actor), node->GetMatrix(), data, GetAttributes(mapper) });
-        }
-        else if (mapper != actor->GetMapper() && GetMappedData(actor->GetMapper()))
-        {
-          isAllAtHand = false;
-        }
+        areAllAtHand = VisitActor(prop, actor, node->GetMatrix(), false, visit) && areAllAtHand;
       }
     }
   }
-  return isAllAtHand;
+  return areAllAtHand;
 }
 
 penumbra::DrawnActor GetDrawn(const VisitedPart& part)
@@ -316,23 +353,25 @@ vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
   this->WarnOfVolumes(renderer);
-  std::vector<Part> parts;
-  const bool isAllAtHand = VisitParts(renderer,
+  this->NumberOfBuiltParts = 0;
+  std::size_t count = 0;
+  bool isSame = true;
+  Signature seen; // one for all: most of the time there is nothing to keep
+  const bool areAllAtHand = VisitParts(renderer,
     [&](vtkProp* prop, const VisitedPart& visited)
     {
-      Part& part = parts.emplace_back();
+      seen.clear();
       AppendPart(
-        part.Seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
-      part.Prop = prop;
+        seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
+      isSame = isSame && count < this->Parts.size() && this->Parts[count].Seen == seen &&
+        this->Parts[count].Prop == prop;
+      ++count;
     });
-  if (std::equal(parts.begin(), parts.end(), this->Parts.begin(), this->Parts.end(),
-        [](const Part& a, const Part& b) { return a.Seen == b.Seen && a.Prop == b.Prop; }) ||
-    (!isAllAtHand && !this->Parts.empty()))
+  if ((isSame && count == this->Parts.size()) || (!areAllAtHand && !this->Parts.empty()))
   {
     return false;
   }
-  this->Build(renderer, onlyDesignated, parts);
-  this->Parts = std::move(parts);
+  this->Build(renderer, onlyDesignated);
   this->Assemble();
   this->WarnOfActors(renderer);
   return true;
@@ -373,16 +412,62 @@ void vtkShadowSceneCollector::WarnOfVolumes(vtkRenderer* renderer)
   }
 }
 
-void vtkShadowSceneCollector::Build(
-  vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts)
+std::vector<vtkShadowSceneCollector::Part> vtkShadowSceneCollector::TakeParts(
+  vtkRenderer* renderer, bool onlyDesignated)
 {
+  std::vector<Part> parts;
+  VisitParts(renderer,
+    [&](vtkProp* prop, const VisitedPart& visited)
+    {
+      Part& part = parts.emplace_back();
+      AppendPart(
+        part.Seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
+      part.Prop = prop; // another one may have come to the same address, with the same mapper
+    });
+  // Most are where they were; what was before or behind them may have come or gone.
   std::map<Signature, const Part*> before;
-  std::map<std::uint64_t, std::set<std::string>> messages; // by the actor
-  for (const Part& part : this->Parts)
+  std::map<std::uint64_t, const Part*> ofActor;
+  for (std::size_t i = 0; i < this->Parts.size(); ++i)
   {
+    const Part& part = this->Parts[i];
+    if (i < parts.size() && parts[i].Seen == part.Seen)
+    {
+      parts[i].Builder = part.Builder;
+      continue;
+    }
     before.emplace(part.Seen, &part);
-    messages[part.Seen.front()] = part.Builder->GetMessages();
+    ofActor[part.Seen.front()] = &part;
   }
+  for (Part& part : parts)
+  {
+    const auto same = part.Builder ? before.end() : before.find(part.Seen);
+    if (same != before.end())
+    {
+      part.Builder = same->second->Builder;
+    }
+    else if (!part.Builder)
+    {
+      const auto other = ofActor.find(part.Seen.front());
+      part.MakeBuilder(other == ofActor.end() ? nullptr : other->second->Builder.Get());
+    }
+  }
+  return parts;
+}
+
+void vtkShadowSceneCollector::Part::MakeBuilder(const vtkShadowSceneBuilder* earlier)
+{
+  const vtkNew<vtkShadowSceneBuilder> made;
+  if (earlier)
+  {
+    made->SetEarlierMessages(earlier->GetMessages());
+  }
+  this->Builder = made.Get();
+  this->IsNew = true;
+}
+
+void vtkShadowSceneCollector::Build(vtkRenderer* renderer, bool onlyDesignated)
+{
+  std::vector<Part> parts = this->TakeParts(renderer, onlyDesignated);
   // Lights come first: they decide how a proxy plane lies.
   std::vector<penumbra::Light> lights;
   std::size_t i = 0;
@@ -391,20 +476,10 @@ void vtkShadowSceneCollector::Build(
     [&](vtkProp*, const VisitedPart& visited)
     {
       Part& part = parts[i++];
-      const auto same = before.find(part.Seen);
-      if (same != before.end())
+      if (part.IsNew)
       {
-        const vtkWeakPointer<vtkProp> prop = part.Prop;
-        part = *same->second;
-        part.Prop = prop; // another one may have come to the same address, with the same mapper
-      }
-      else
-      {
-        part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
-        part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
         part.Builder->AddData(visited.Data, visited.Matrix, vtkShadowSceneBuilder::Light,
           Describe(visited.Actor), visited.Attributes);
-        part.IsNew = true;
       }
       const std::vector<penumbra::Light>& own = part.Builder->GetScene().Lights;
       lights.insert(lights.end(), own.begin(), own.end());
@@ -418,9 +493,7 @@ void vtkShadowSceneCollector::Build(
       Part& part = parts[i++];
       if (!part.IsNew && areLightsOthers && part.Builder->DependsOnLights())
       {
-        part.Builder = vtkSmartPointer<vtkShadowSceneBuilder>::New();
-        part.Builder->SetEarlierMessages(messages[part.Seen.front()]);
-        part.IsNew = true;
+        part.MakeBuilder(vtkSmartPointer<vtkShadowSceneBuilder>(part.Builder));
       }
       if (part.IsNew)
       {
@@ -433,8 +506,10 @@ void vtkShadowSceneCollector::Build(
           vtkWarningMacro("'" << name << "': " << problem << ".");
         }
         part.IsNew = false;
+        ++this->NumberOfBuiltParts;
       }
     });
+  this->Parts = std::move(parts);
 }
 
 void vtkShadowSceneCollector::Assemble()
@@ -461,4 +536,5 @@ void vtkShadowSceneCollector::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ReceiverProps: " << this->ReceiverProps.size() << "\n";
+  os << indent << "NumberOfBuiltParts: " << this->NumberOfBuiltParts << "\n";
 }

@@ -21,6 +21,7 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 #include "vtkWeakPointer.h"  // for vtkWeakPointer
 
+#include <cstddef> // for counts
 #include <cstdint> // for the signature
 #include <set>     // for warnings
 #include <string>  // for warnings
@@ -50,9 +51,14 @@ public:
    * last call (visibility, geometry, block visibility, matrices, settings): then the scene is a new
    * one. While actors with levels of detail have only coarser data at hand, nothing has changed.
    * With `onlyDesignated`, only props that carry vtkSoftShadowPass::DESIGNATED() may receive
-   * shadows.
+   * shadows. Call it while the renderer draws: its cullers have then brought the data of its actors
+   * up to date, and this does not ask for that again.
    */
   bool Update(vtkRenderer* renderer, bool onlyDesignated);
+
+  /// How many actors, parts of assemblies among them, the last Update() made surfaces, receivers or
+  /// lights of: those that were new or had changed.
+  std::size_t GetNumberOfBuiltParts() const { return this->NumberOfBuiltParts; }
 
   const penumbra::ShadowScene& GetScene() const { return this->Scene; }
   const std::vector<ReceiverProp>& GetReceiverProps() const { return this->ReceiverProps; }
@@ -73,8 +79,13 @@ private:
     vtkSmartPointer<vtkShadowSceneBuilder> Builder;
     vtkWeakPointer<vtkProp> Prop;
     bool IsNew = false; ///< while it is being built
+
+    /// Begins anew; messages of an earlier builder (nullptr: none) are not printed again.
+    void MakeBuilder(const vtkShadowSceneBuilder* earlier);
   };
-  void Build(vtkRenderer* renderer, bool onlyDesignated, std::vector<Part>& parts);
+  void Build(vtkRenderer* renderer, bool onlyDesignated);
+  /// The parts that there are now, those that have not changed with their builders of before.
+  std::vector<Part> TakeParts(vtkRenderer* renderer, bool onlyDesignated);
   void Assemble();
   /// Volumes and slices of images, which cast no shadow; actors whose shadow is not their
   /// picture's.
@@ -85,6 +96,7 @@ private:
   std::vector<Part> Parts;    ///< in the order of the renderer's props
   penumbra::ShadowScene Scene;
   std::vector<ReceiverProp> ReceiverProps;
+  std::size_t NumberOfBuiltParts = 0;
 };
 
 #endif
