@@ -3,7 +3,10 @@
 #include "DrawnGlyphs.h"
 
 #include "DrawnOpacity.h"
+#include "DrawnSurface.h"
+#include "PolyDataStructure.h"
 #include "Vectors.h"
+#include "vtkActor.h"
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -13,12 +16,14 @@
 #include "vtkGlyph3DMapper.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkQuaternion.h"
 #include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
@@ -28,6 +33,8 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace penumbra
 {
@@ -402,6 +409,148 @@ vtkSmartPointer<vtkPolyData> Assemble(const std::vector<Shape>& shapes,
   return result;
 }
 
+/// The glyphs, unless they are too many.
+vtkSmartPointer<vtkPolyData> AssembleIfFew(const std::vector<Shape>& shapes,
+  const std::vector<Instance>& instances, vtkMapper* mapper, vtkDataSet* data, std::string& problem)
+{
+  double triangles = 0.0;
+  for (const Instance& instance : instances)
+  {
+    triangles += static_cast<double>(shapes[instance.Shape].Triangles.size());
+  }
+  if (triangles > MostGlyphTriangles)
+  {
+    problem = std::to_string(instances.size()) + " glyphs have " +
+      std::to_string(static_cast<long long>(triangles)) +
+      " triangles; allowed: 4000000. They cast no shadow";
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  return Assemble(shapes, instances, mapper, data);
+}
+
+/// A closed prism about the x axis, from 0 to 1.
+Shape MakePrism()
+{
+  constexpr std::size_t Sides = 8;
+  // By Cauchy's formula, the mean width of the prism's section is its perimeter over pi; this is
+  // the radius of its corners at which that is the diameter of a circle of radius 1.
+  const double step = 2.0 * vtkMath::Pi() / Sides;
+  const double cornerRadius = vtkMath::Pi() / (Sides * std::sin(0.5 * step));
+  Shape prism;
+  for (const double x : { 0.0, 1.0 })
+  {
+    for (std::size_t i = 0; i < Sides; ++i)
+    {
+      const double angle = step * static_cast<double>(i);
+      prism.Points.push_back({ x, cornerRadius * std::cos(angle), cornerRadius * std::sin(angle) });
+    }
+  }
+  for (std::size_t i = 0; i < Sides; ++i)
+  {
+    const std::size_t j = (i + 1) % Sides;
+    prism.Triangles.push_back({ i, j, j + Sides });
+    prism.Triangles.push_back({ i, j + Sides, i + Sides });
+    if (i > 0 && j > 0)
+    {
+      prism.Triangles.push_back({ 0, j, i });
+      prism.Triangles.push_back({ Sides, i + Sides, j + Sides });
+    }
+  }
+  return prism;
+}
+
+/// Calls visit(ids) for each cell of the array.
+template <typename Visitor>
+void VisitCells(vtkCellArray* cells, Visitor&& visit)
+{
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+  {
+    cells->GetCellAtId(i, ids);
+    visit(ids.Get());
+  }
+}
+
+bool DrawsBalls(vtkProperty* property)
+{
+  return property->GetRenderPointsAsSpheres();
+}
+
+bool DrawsTubes(vtkProperty* property)
+{
+  return property->GetRenderLinesAsTubes() && property->GetLineWidth() > 1.0 && // as VTK does
+    property->GetRepresentation() != VTK_POINTS;
+}
+
+/// The points that are drawn as points.
+std::set<vtkIdType> FindPoints(vtkProperty* property, vtkPolyData* data)
+{
+  std::vector<vtkCellArray*> drawn = { data->GetVerts() };
+  if (property->GetRepresentation() == VTK_POINTS || property->GetVertexVisibility())
+  {
+    drawn.insert(drawn.end(), { data->GetLines(), data->GetPolys(), data->GetStrips() });
+  }
+  std::set<vtkIdType> points;
+  for (vtkCellArray* cells : drawn)
+  {
+    VisitCells(cells, [&](vtkIdList* ids) { points.insert(ids->begin(), ids->end()); });
+  }
+  return points;
+}
+
+/// The pairs of points between which lines are drawn.
+std::set<std::pair<vtkIdType, vtkIdType>> FindLines(vtkProperty* property, vtkPolyData* data)
+{
+  std::set<std::pair<vtkIdType, vtkIdType>> lines;
+  const auto addLines = [&](vtkIdList* ids, vtkIdType step)
+  {
+    for (vtkIdType i = step; i < ids->GetNumberOfIds(); ++i)
+    {
+      lines.insert(std::minmax(ids->GetId(i - step), ids->GetId(i)));
+    }
+  };
+  VisitCells(data->GetLines(), [&](vtkIdList* ids) { addLines(ids, 1); });
+  if (property->GetRepresentation() != VTK_WIREFRAME)
+  {
+    return lines;
+  }
+  VisitCells(data->GetPolys(),
+    [&](vtkIdList* ids)
+    {
+      addLines(ids, 1);
+      addLines(
+        ids, std::max<vtkIdType>(ids->GetNumberOfIds() - 1, 1)); // from the last to the first
+    });
+  VisitCells(data->GetStrips(),
+    [&](vtkIdList* ids)
+    {
+      addLines(ids, 1);
+      addLines(ids, 2);
+    });
+  return lines;
+}
+
+glm::dmat3 GetAxes(vtkMatrix4x4* matrix)
+{
+  glm::dmat3 axes(1.0);
+  for (int i = 0; matrix && i < 9; ++i)
+  {
+    axes[i % 3][i / 3] = matrix->GetElement(i / 3, i % 3);
+  }
+  return axes;
+}
+
+/// Axes in the world of a prism from 0 along the line.
+glm::dmat3 AlignPrism(const glm::dvec3& line, double radius)
+{
+  const glm::dvec3 size = glm::abs(line);
+  const glm::dvec3 away = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+    : size.y <= size.z                                         ? glm::dvec3(0, 1, 0)
+                                                               : glm::dvec3(0, 0, 1);
+  const glm::dvec3 side = glm::normalize(glm::cross(line, away));
+  return { line, radius * side, radius * glm::normalize(glm::cross(line, side)) };
+}
+
 void AppendValue(std::vector<std::uint64_t>& words, double value)
 {
   std::uint64_t word = 0;
@@ -439,19 +588,69 @@ vtkSmartPointer<vtkPolyData> MakeGlyphs(vtkMapper* mapper, vtkDataSet* data, std
     shapes.push_back(MakeBall());
     instances = PlaceBalls(vtkPointGaussianMapper::SafeDownCast(mapper), points);
   }
-  double triangles = 0.0;
-  for (const Instance& instance : instances)
+  return AssembleIfFew(shapes, instances, mapper, data, problem);
+}
+
+bool DrawsPixelSolids(const DrawnActor& drawn)
+{
+  vtkProperty* property = drawn.Actor->GetProperty();
+  return !DrawsGlyphs(drawn.Mapper) && (DrawsBalls(property) || DrawsTubes(property));
+}
+
+vtkSmartPointer<vtkPolyData> MakePixelSolids(
+  const DrawnActor& drawn, vtkPolyData* data, std::string& problem)
+{
+  const glm::dmat3 toWorld = GetAxes(drawn.Matrix);
+  if (!DrawsPixelSolids(drawn) || !FindStructureProblem(data).empty() ||
+    glm::determinant(toWorld) == 0.0 || drawn.PixelLength <= 0.0)
   {
-    triangles += static_cast<double>(shapes[instance.Shape].Triangles.size());
+    return nullptr;
   }
-  if (triangles > MostGlyphTriangles)
+  vtkProperty* property = drawn.Actor->GetProperty();
+  const glm::dmat3 toData = glm::inverse(toWorld);
+  std::vector<Instance> instances;
+  if (DrawsBalls(property))
   {
-    problem = std::to_string(instances.size()) + " glyphs have " +
-      std::to_string(static_cast<long long>(triangles)) +
-      " triangles; allowed: 4000000. They cast no shadow";
-    return vtkSmartPointer<vtkPolyData>::New();
+    const double radius = 0.5 * property->GetPointSize() * drawn.PixelLength;
+    for (const vtkIdType point : FindPoints(property, data))
+    {
+      instances.push_back({ 0, point, radius * toData });
+    }
   }
-  return Assemble(shapes, instances, mapper, data);
+  if (DrawsTubes(property))
+  {
+    const double radius = 0.5 * property->GetLineWidth() * drawn.PixelLength;
+    for (const auto& [from, to] : FindLines(property, data))
+    {
+      glm::dvec3 start, end;
+      data->GetPoint(from, &start.x);
+      data->GetPoint(to, &end.x);
+      const glm::dvec3 line = toWorld * (end - start);
+      if (glm::length(line) > 0.0)
+      {
+        instances.push_back({ 1, from, toData * AlignPrism(line, radius) });
+      }
+    }
+  }
+  return instances.empty()
+    ? nullptr
+    : AssembleIfFew({ MakeBall(), MakePrism() }, instances, drawn.Mapper, data, problem);
+}
+
+void AppendPixelSolidState(std::vector<std::uint64_t>& words, const DrawnActor& drawn)
+{
+  if (!DrawsPixelSolids(drawn))
+  {
+    return;
+  }
+  vtkProperty* property = drawn.Actor->GetProperty();
+  for (const double value : { static_cast<double>(property->GetRepresentation()),
+         static_cast<double>(property->GetVertexVisibility()),
+         DrawsBalls(property) ? static_cast<double>(property->GetPointSize()) : 0.0,
+         DrawsTubes(property) ? static_cast<double>(property->GetLineWidth()) : 0.0 })
+  {
+    AppendValue(words, value);
+  }
 }
 
 void AppendGlyphState(std::vector<std::uint64_t>& words, vtkMapper* mapper, vtkDataSet* data)

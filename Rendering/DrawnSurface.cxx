@@ -200,6 +200,19 @@ private:
     Blocks;
 };
 
+/// Adds polygons by the opacities that they carry, times another one.
+void AddByOpacity(
+  DrawnParts& parts, vtkPolyData* polygons, double opacity, const std::optional<glm::dvec3>& colour)
+{
+  for (const auto& [own, part] : SplitByOpacity(polygons))
+  {
+    if (own * opacity > 0.0)
+    {
+      parts.Add(part, own * opacity, colour);
+    }
+  }
+}
+
 void AppendWord(std::vector<std::uint64_t>& words, double value)
 {
   std::uint64_t word = 0;
@@ -215,29 +228,13 @@ std::string DescribeUnlikeShadow(const DrawnActor& drawn)
   {
     return "the transparency of its texture is not looked at: its whole glyphs cast shadows";
   }
-  vtkProperty* property = drawn.Actor->GetProperty();
-  bool hasPoints = property->GetRepresentation() == VTK_POINTS;
-  bool hasLines = property->GetRepresentation() == VTK_WIREFRAME;
-  VisitLeaves(drawn,
-    [&](vtkDataSet* leaf, const BlockStyle&)
-    {
-      auto* cells = vtkPolyData::SafeDownCast(leaf);
-      hasPoints = hasPoints || (cells && cells->GetNumberOfVerts() > 0);
-      hasLines = hasLines || (cells && cells->GetNumberOfLines() > 0);
-    });
-  if ((hasPoints && property->GetRenderPointsAsSpheres()) ||
-    (hasLines && property->GetRenderLinesAsTubes()))
-  {
-    return "points drawn as spheres and lines drawn as tubes have a size in pixels alone and cast "
-           "no shadow; Glyph and Tube give them one in the world";
-  }
   return "";
 }
 
 bool IsDrawnAsItIs(const DrawnActor& drawn)
 {
   bool isAsItIs = drawn.Mapper->GetNumberOfClippingPlanes() == 0 && !DrawsGlyphs(drawn.Mapper) &&
-    !HasTransparentTexture(drawn.Actor);
+    !DrawsPixelSolids(drawn) && !HasTransparentTexture(drawn.Actor);
   const double opacity = drawn.Actor->GetProperty()->GetOpacity();
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
@@ -271,7 +268,20 @@ std::vector<DrawnPart> FindDrawnParts(
         return;
       }
       const std::optional<glm::dvec3> colour = GetColour(drawn, leaf, style);
-      if (mayReceive && vtkShadowFieldData::ReadReceiver(leaf->GetFieldData()))
+      const bool receives = mayReceive && vtkShadowFieldData::ReadReceiver(leaf->GetFieldData());
+      if (const auto solids = MakePixelSolids(drawn, polygons, problem))
+      {
+        if (receives)
+        {
+          solids->SetFieldData(nullptr); // the solids themselves show no shadows
+        }
+        AddByOpacity(parts, Clip(solids, planes), style.Opacity, colour);
+      }
+      if (drawn.Actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+      {
+        return;
+      }
+      if (receives)
       {
         parts.Add(Clip(polygons, planes), style.Opacity, colour);
         return;
@@ -283,13 +293,7 @@ std::vector<DrawnPart> FindDrawnParts(
       for (const auto& [alpha, piece] :
         SplitByTexture(drawn.Actor, Clip(polygons, planes), problem))
       {
-        for (const auto& [opacity, part] : SplitByOpacity(piece))
-        {
-          if (alpha * opacity * style.Opacity > 0.0)
-          {
-            parts.Add(part, alpha * opacity * style.Opacity, colour);
-          }
-        }
+        AddByOpacity(parts, piece, alpha * style.Opacity, colour);
       }
     });
   return parts.Parts;
@@ -305,6 +309,7 @@ void AppendDrawnState(std::vector<std::uint64_t>& words, const DrawnActor& drawn
     }
   }
   AppendTextureState(words, drawn.Actor);
+  AppendPixelSolidState(words, drawn);
   VisitLeaves(drawn,
     [&](vtkDataSet* leaf, const BlockStyle& style)
     {

@@ -32,6 +32,7 @@ struct DrawnActor
   vtkMatrix4x4* Matrix = nullptr; ///< from the data to the world; nullptr if they are the same
   vtkDataObject* Data = nullptr;
   vtkCompositeDataDisplayAttributes* Attributes = nullptr;
+  double PixelLength = 0.0; ///< in the world, of what has a size in pixels; 0 if it is not known
 };
 
 /// Polygons of an actor that are drawn alike.
@@ -50,14 +51,16 @@ bool IsDrawnAsItIs(const DrawnActor& drawn);
  * The polygons that the mapper draws: what its clipping planes leave of its visible blocks, in
  * parts by their opacity and colour. Opacities of cells and points are those of the lookup table or
  * of colours with an alpha (SplitByOpacity), times the alpha of the texture (SplitByTexture). What
- * is wholly transparent is left out. Data with receiver settings stay one part for each block, with
- * the block's opacity, if `mayReceive`. What is drawn but left out is said by `problem`.
+ * is wholly transparent is left out. Points drawn as spheres and lines drawn as tubes are among
+ * them (MakePixelSolids); the polygons themselves are so only if they are drawn as such. Data with
+ * receiver settings stay one part for each block, with the block's opacity, if `mayReceive`. What
+ * is drawn but left out is said by `problem`.
  */
 std::vector<DrawnPart> FindDrawnParts(
   const DrawnActor& drawn, bool mayReceive, std::string& problem);
 
-/// Tells what the actor draws as a solid, or glyphs that its texture cuts out, though its shadow
-/// does not show that; empty if there is no such thing.
+/// Tells of glyphs that the actor's texture cuts out, though their shadow does not show that; empty
+/// if there is no such thing.
 std::string DescribeUnlikeShadow(const DrawnActor& drawn);
 
 /// Whether mappers like this one draw polygons that can be found.

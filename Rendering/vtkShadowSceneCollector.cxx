@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowSceneCollector.h"
 
+#include "DrawnGlyphs.h"
 #include "DrawnSurface.h"
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
+#include "vtkCamera.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCuller.h"
 #include "vtkCullerCollection.h"
@@ -17,6 +19,7 @@
 #include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointGaussianMapper.h"
@@ -35,6 +38,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -50,8 +54,8 @@ namespace
 struct VisitedPart
 {
   vtkActor* Actor;
-  bool IsSurface; ///< what is drawn as lines or points, or wholly transparent, blocks and receives
-                  ///< nothing
+  bool IsSurface; ///< what is drawn as lines or points, or wholly transparent, receives nothing
+  bool IsSolid;   ///< nor does it block, unless the lines are tubes or the points spheres
   vtkSmartPointer<vtkMatrix4x4> Matrix;
   vtkDataObject* Data;
   vtkCompositeDataDisplayAttributes* Attributes;
@@ -84,6 +88,16 @@ bool IsDrawnAsSurface(vtkActor* actor)
 vtkMapper* GetFullMapper(vtkActor* actor)
 {
   return actor->vtkActor::GetMapper();
+}
+
+/// Whether the actor may draw something that blocks light.
+bool IsDrawnAsSolid(vtkActor* actor)
+{
+  penumbra::DrawnActor drawn;
+  drawn.Actor = actor;
+  drawn.Mapper = GetFullMapper(actor);
+  return IsDrawnAsSurface(actor) ||
+    (actor->GetProperty()->GetOpacity() > 0.0 && penumbra::DrawsPixelSolids(drawn));
 }
 
 /// The data of a mapper of surfaces, brought up to date unless they are; nullptr for other mappers.
@@ -146,16 +160,19 @@ bool VisitActor(
   const bool isDrawnInFull = mapper == actor->GetMapper();
   if (vtkDataObject* data = GetMappedData(mapper, areUpToDate && isDrawnInFull))
   {
-    visit(prop, VisitedPart{ actor, IsDrawnAsSurface(actor), matrix, data, GetAttributes(mapper) });
+    visit(prop,
+      VisitedPart{ actor, IsDrawnAsSurface(actor), IsDrawnAsSolid(actor), matrix, data,
+        GetAttributes(mapper) });
     return true;
   }
   return isDrawnInFull || !GetMappedData(actor->GetMapper());
 }
 
-/// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props.
-/// False if one of them is drawn by a level of detail while its data themselves are not at hand.
+/// Calls visit(prop, part) for every visible actor of polygonal data among the renderer's props,
+/// and for the rectangles of slices of images. False if one of them is drawn by a level of detail
+/// while its data themselves are not at hand.
 template <typename Visitor>
-bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
+bool VisitParts(vtkRenderer* renderer, penumbra::SliceActors& slices, Visitor&& visit)
 {
   const bool areUpToDate = AsksForBounds(renderer);
   bool areAllAtHand = true;
@@ -178,7 +195,14 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
     while (vtkAssemblyPath* path = prop->GetNextPath())
     {
       vtkAssemblyNode* node = path->GetLastNode();
-      if (auto* actor = vtkActor::SafeDownCast(node->GetViewProp()))
+      vtkProp* drawn = node->GetViewProp();
+      if (vtkActor* slice = drawn->GetVisibility() ? slices.Find(drawn) : nullptr)
+      {
+        visit(prop,
+          VisitedPart{ slice, IsDrawnAsSurface(slice), IsDrawnAsSurface(slice), node->GetMatrix(),
+            slice->GetMapper()->GetInputDataObject(0, 0), nullptr });
+      }
+      else if (auto* actor = vtkActor::SafeDownCast(drawn))
       {
         areAllAtHand = VisitActor(prop, actor, node->GetMatrix(), false, visit) && areAllAtHand;
       }
@@ -187,9 +211,41 @@ bool VisitParts(vtkRenderer* renderer, Visitor&& visit)
   return areAllAtHand;
 }
 
-penumbra::DrawnActor GetDrawn(const VisitedPart& part)
+penumbra::DrawnActor GetDrawn(const VisitedPart& part, double pixelLength = 0.0)
 {
-  return { part.Actor, GetFullMapper(part.Actor), part.Matrix, part.Data, part.Attributes };
+  return { part.Actor, GetFullMapper(part.Actor), part.Matrix, part.Data, part.Attributes,
+    pixelLength };
+}
+
+/// The world's length of a pixel at some distance before the camera.
+double GetPixelLength(vtkRenderer* renderer, double distance)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const int* size = renderer->GetSize();
+  const double height = camera->GetParallelProjection()
+    ? 2.0 * camera->GetParallelScale()
+    : 2.0 * distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const bool isOfWidth = camera->GetUseHorizontalViewAngle() && !camera->GetParallelProjection();
+  return height / std::max(size[isOfWidth ? 0 : 1], 1);
+}
+
+/// How far before the camera the middle of a part is; of what is behind it, the camera's focus.
+double GetDistance(vtkRenderer* renderer, const VisitedPart& part)
+{
+  const double* bounds = GetFullMapper(part.Actor)->GetBounds();
+  double middle[4] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
+    0.5 * (bounds[4] + bounds[5]), 1.0 };
+  if (part.Matrix)
+  {
+    part.Matrix->MultiplyPoint(middle, middle);
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  double position[3], direction[3], offset[3];
+  camera->GetPosition(position);
+  camera->GetDirectionOfProjection(direction);
+  vtkMath::Subtract(middle, position, offset);
+  const double distance = vtkMath::Dot(offset, direction);
+  return distance > 0.0 ? distance : camera->GetDistance();
 }
 
 /// Whether the mapper's shaders can show shadows on the polygons of its data.
@@ -262,11 +318,11 @@ penumbra::CasterSettings GetCaster(
 
 /// Adds all that an actor draws to the builder, lights apart. The answer says what is left out.
 std::string AddDrawn(vtkShadowSceneBuilder* builder, vtkProp* prop, const VisitedPart& visited,
-  bool mayReceive, const std::string& name)
+  double pixelLength, bool mayReceive, const std::string& name)
 {
-  const int roles = (visited.IsSurface ? vtkShadowSceneBuilder::Occluder : 0) |
+  const int roles = (visited.IsSolid ? vtkShadowSceneBuilder::Occluder : 0) |
     (mayReceive ? vtkShadowSceneBuilder::Receiver : 0);
-  const penumbra::DrawnActor drawn = GetDrawn(visited);
+  const penumbra::DrawnActor drawn = GetDrawn(visited, pixelLength);
   if (!roles || penumbra::IsDrawnAsItIs(drawn))
   {
     builder->SetCaster(GetCaster(prop, visited));
@@ -328,14 +384,15 @@ void AppendPart(std::vector<std::uint64_t>& signature, const VisitedPart& part, 
 {
   Append(signature, part.Actor);
   Append(signature, part.IsSurface);
+  Append(signature, part.IsSolid);
   Append(signature, mayReceive);
   const glm::dvec3 passing = caster.GetTransmittance();
-  for (int i = 0; i < 3 && part.IsSurface; ++i)
+  for (int i = 0; i < 3 && part.IsSolid; ++i)
   {
     Append(signature, passing[i]);
   }
   AppendData(signature, part.Data, part.Attributes);
-  if (part.IsSurface)
+  if (part.IsSolid)
   {
     penumbra::AppendDrawnState(signature, GetDrawn(part));
   }
@@ -352,17 +409,25 @@ vtkShadowSceneCollector::~vtkShadowSceneCollector() = default;
 
 bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
 {
+  this->Slices.Prune();
   this->WarnOfVolumes(renderer);
   this->NumberOfBuiltParts = 0;
   std::size_t count = 0;
   bool isSame = true;
+  std::map<Signature, PixelSize> sizes;
   Signature seen; // one for all: most of the time there is nothing to keep
-  const bool areAllAtHand = VisitParts(renderer,
+  const bool areAllAtHand = VisitParts(renderer, this->Slices,
     [&](vtkProp* prop, const VisitedPart& visited)
     {
       seen.clear();
       AppendPart(
         seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
+      if (penumbra::DrawsPixelSolids(GetDrawn(visited)))
+      {
+        const PixelSize now = { GetPixelLength(renderer, GetDistance(renderer, visited)),
+          GetPixelLength(renderer, renderer->GetActiveCamera()->GetDistance()) };
+        Append(seen, sizes.emplace(seen, this->ChooseSize(seen, now)).first->second.Length);
+      }
       isSame = isSame && count < this->Parts.size() && this->Parts[count].Seen == seen &&
         this->Parts[count].Prop == prop;
       ++count;
@@ -371,15 +436,27 @@ bool vtkShadowSceneCollector::Update(vtkRenderer* renderer, bool onlyDesignated)
   {
     return false;
   }
+  this->PixelSizes = std::move(sizes);
   this->Build(renderer, onlyDesignated);
   this->Assemble();
   this->WarnOfActors(renderer);
   return true;
 }
 
+vtkShadowSceneCollector::PixelSize vtkShadowSceneCollector::ChooseSize(
+  const Signature& seen, const PixelSize& now) const
+{
+  constexpr double MostZoom = 2.0; // of a camera that turns and shifts, too, nothing is baked
+  const auto before = this->PixelSizes.find(seen);
+  const bool isKept = before != this->PixelSizes.end() &&
+    now.FocalLength <= MostZoom * before->second.FocalLength &&
+    before->second.FocalLength <= MostZoom * now.FocalLength;
+  return isKept ? before->second : now;
+}
+
 void vtkShadowSceneCollector::WarnOfActors(vtkRenderer* renderer)
 {
-  VisitParts(renderer,
+  VisitParts(renderer, this->Slices,
     [this](vtkProp*, const VisitedPart& part)
     {
       const std::string text = penumbra::DescribeUnlikeShadow(GetDrawn(part));
@@ -398,7 +475,7 @@ void vtkShadowSceneCollector::WarnOfVolumes(vtkRenderer* renderer)
   while (vtkProp* prop = props->GetNextProp(it))
   {
     const bool isSlice = prop->IsA("vtkImageSlice");
-    if (!prop->GetVisibility() || !(isSlice || prop->IsA("vtkVolume")))
+    if (!prop->GetVisibility() || !(isSlice || prop->IsA("vtkVolume")) || this->Slices.Find(prop))
     {
       continue;
     }
@@ -406,8 +483,10 @@ void vtkShadowSceneCollector::WarnOfVolumes(vtkRenderer* renderer)
     text << prop->GetClassName() << " (" << prop << ")";
     if (this->Said.insert(text.str()).second)
     {
-      vtkWarningMacro("'" << text.str() << "': " << (isSlice ? "slices of images" : "volumes")
-                          << " cast no shadow.");
+      vtkWarningMacro(
+        "'" << text.str() << "': "
+            << (isSlice ? "slices of images that follow the camera or are resliced" : "volumes")
+            << " cast no shadow.");
     }
   }
 }
@@ -416,12 +495,17 @@ std::vector<vtkShadowSceneCollector::Part> vtkShadowSceneCollector::TakeParts(
   vtkRenderer* renderer, bool onlyDesignated)
 {
   std::vector<Part> parts;
-  VisitParts(renderer,
+  VisitParts(renderer, this->Slices,
     [&](vtkProp* prop, const VisitedPart& visited)
     {
       Part& part = parts.emplace_back();
       AppendPart(
         part.Seen, visited, MayReceive(prop, visited, onlyDesignated), GetCaster(prop, visited));
+      if (penumbra::DrawsPixelSolids(GetDrawn(visited)))
+      {
+        part.PixelLength = this->PixelSizes.at(part.Seen).Length;
+        Append(part.Seen, part.PixelLength);
+      }
       part.Prop = prop; // another one may have come to the same address, with the same mapper
     });
   // Most are where they were; what was before or behind them may have come or gone.
@@ -472,7 +556,7 @@ void vtkShadowSceneCollector::Build(vtkRenderer* renderer, bool onlyDesignated)
   std::vector<penumbra::Light> lights;
   std::size_t i = 0;
   bool areLightsOthers = false;
-  VisitParts(renderer,
+  VisitParts(renderer, this->Slices,
     [&](vtkProp*, const VisitedPart& visited)
     {
       Part& part = parts[i++];
@@ -487,7 +571,7 @@ void vtkShadowSceneCollector::Build(vtkRenderer* renderer, bool onlyDesignated)
     });
   areLightsOthers = areLightsOthers || lights.size() != this->Scene.Lights.size();
   i = 0;
-  VisitParts(renderer,
+  VisitParts(renderer, this->Slices,
     [&](vtkProp* prop, const VisitedPart& visited)
     {
       Part& part = parts[i++];
@@ -499,8 +583,8 @@ void vtkShadowSceneCollector::Build(vtkRenderer* renderer, bool onlyDesignated)
       {
         part.Builder->SetLights(lights);
         const std::string name = Describe(visited.Actor);
-        const std::string problem =
-          AddDrawn(part.Builder, prop, visited, MayReceive(prop, visited, onlyDesignated), name);
+        const std::string problem = AddDrawn(part.Builder, prop, visited, part.PixelLength,
+          MayReceive(prop, visited, onlyDesignated), name);
         if (!problem.empty() && this->Said.insert(name + problem).second)
         {
           vtkWarningMacro("'" << name << "': " << problem << ".");

@@ -10,10 +10,16 @@
  * vtkSoftShadowPass::SetCastShadow() or their data say otherwise. Update() remembers what it saw,
  * so that it can tell whether anything that a bake depends on has changed since. Surfaces of actors
  * that have not changed are the same penumbra::SharedSurface.
+ *
+ * Points drawn as spheres and lines drawn as tubes cast with the size that they have in the view,
+ * at the middle of their actor, when they are first seen. They keep it while the camera moves,
+ * until it is zoomed (the world's length of a pixel at its focal distance) by more than a factor
+ * of 2.
  */
 #ifndef vtkShadowSceneCollector_h
 #define vtkShadowSceneCollector_h
 
+#include "DrawnSlice.h"              // for slices of images
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ShadowScene.h"
 #include "vtkNew.h" // for vtkNew
@@ -23,6 +29,7 @@
 
 #include <cstddef> // for counts
 #include <cstdint> // for the signature
+#include <map>     // for sizes
 #include <set>     // for warnings
 #include <string>  // for warnings
 #include <vector>  // for receivers
@@ -78,22 +85,33 @@ private:
     Signature Seen;
     vtkSmartPointer<vtkShadowSceneBuilder> Builder;
     vtkWeakPointer<vtkProp> Prop;
-    bool IsNew = false; ///< while it is being built
+    double PixelLength = 0.0; ///< penumbra::DrawnActor::PixelLength
+    bool IsNew = false;       ///< while it is being built
 
     /// Begins anew; messages of an earlier builder (nullptr: none) are not printed again.
     void MakeBuilder(const vtkShadowSceneBuilder* earlier);
   };
+  /// The size of what is drawn in pixels: the world's length of one.
+  struct PixelSize
+  {
+    double Length = 0.0;      ///< at the middle of the part
+    double FocalLength = 0.0; ///< at the camera's focal distance
+  };
+  /// The size that the part had until now, unless the camera has been zoomed since.
+  PixelSize ChooseSize(const Signature& seen, const PixelSize& now) const;
   void Build(vtkRenderer* renderer, bool onlyDesignated);
   /// The parts that there are now, those that have not changed with their builders of before.
   std::vector<Part> TakeParts(vtkRenderer* renderer, bool onlyDesignated);
   void Assemble();
-  /// Volumes and slices of images, which cast no shadow; actors whose shadow is not their
-  /// picture's.
+  /// Volumes and slices of images that cannot be found, which cast no shadow; actors whose shadow
+  /// is not their picture's.
   void WarnOfVolumes(vtkRenderer* renderer);
   void WarnOfActors(vtkRenderer* renderer);
 
-  std::set<std::string> Said; ///< warnings, each once
-  std::vector<Part> Parts;    ///< in the order of the renderer's props
+  penumbra::SliceActors Slices;
+  std::set<std::string> Said;                ///< warnings, each once
+  std::map<Signature, PixelSize> PixelSizes; ///< by what was seen of the part but for the size
+  std::vector<Part> Parts;                   ///< in the order of the renderer's props
   penumbra::ShadowScene Scene;
   std::vector<ReceiverProp> ReceiverProps;
   std::size_t NumberOfBuiltParts = 0;
