@@ -103,8 +103,8 @@ public:
   virtual std::unique_ptr<LightShape> Clip(
     const glm::dvec3& point, const glm::dvec3& normal) const = 0;
 
-  /// The same light, with each part that emits to both sides as parts that emit to one: what its
-  /// samples show then has one front. By default the light as it is.
+  /// The same light for one receiver. Where cells emit to both sides, each of its cells has one
+  /// side, which the receiver sees; other lights stay as they are.
   virtual std::unique_ptr<LightShape> Face(const Parallelogram& /*receiver*/) const
   {
     return this->Clone();

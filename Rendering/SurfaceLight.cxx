@@ -302,6 +302,7 @@ std::vector<EmittingPolygon> SurfaceLight::GetPolygons() const
 std::vector<double> SurfaceLight::GetKey() const
 {
   std::vector<double> key = this->MakeKey(5);
+  key.insert(key.end(), { this->Rounding.x, this->Rounding.y, this->Rounding.z });
   for (const PolygonLight& cell : this->Cells)
   {
     const std::vector<double> cellKey = cell.GetKey();

@@ -319,3 +319,28 @@ TEST(StabilityEmittingSurfaces, DomesShineAsTheirOpenings)
       Bake(opening, nullptr, {}), ShareBound);
   }
 }
+
+// What is really before a light hides it: a plate 1e-4 and 1e-5 of its height away. The two middle
+// texels, right below, see nothing of a light in whose plane the plate, a tenth larger, nearly is.
+TEST(StabilityEmittingSurfaces, PlatesThatAreCloseHideTheLight)
+{
+  Options options;
+  options.IsFloat = false;
+  for (const double degrees : { 0.0, 20.0, 45.0 })
+  {
+    for (const double distance : { 2e-4, 2e-5 })
+    {
+      const double a = glm::radians(degrees);
+      const Mesh light = MakePanel(3, degrees);
+      Mesh plate = light;
+      for (glm::dvec3& p : plate.Points)
+      {
+        p = glm::dvec3(0.0, 0.0, 2.0) + 1.1 * (p - glm::dvec3(0.0, 0.0, 2.0)) -
+          distance * glm::dvec3(std::sin(a), 0.0, std::cos(a));
+      }
+      const std::vector<glm::vec4> texels = Bake(light, &plate, options);
+      EXPECT_EQ(texels[24 * 11 + 11].x, 0.0f) << degrees << " degrees, " << distance << " away";
+      EXPECT_EQ(texels[24 * 12 + 12].x, 0.0f) << degrees << " degrees, " << distance << " away";
+    }
+  }
+}
