@@ -20,6 +20,8 @@ constexpr double Rounding = 1e-12;
 /// In units of the receiver's size. Floats of this size are good to 4e-6, a five-hundredth of a
 /// texel where there are 512 of them.
 constexpr double FarAway = 64.0;
+/// The plane of a light goes through three of its points, and others are as far off again.
+constexpr double RoundingsOfPlane = 4.0;
 
 /// The part of the hull of the points (of the directions, with w = 0) that is above h = 0: those
 /// that are, and where the lines between those and the others go through.
@@ -45,8 +47,9 @@ std::vector<glm::dvec3> GetUpperHull(const std::vector<glm::dvec3>& points)
 }
 
 /// The unit normal of the plane through all points, if there is one. Points count as in it up to
-/// their rounding.
-std::optional<glm::dvec3> FindCommonNormal(const std::vector<glm::dvec3>& points)
+/// their rounding: that of the arithmetic, and that of their type along each axis.
+std::optional<glm::dvec3> FindCommonNormal(
+  const std::vector<glm::dvec3>& points, const glm::dvec3& rounding)
 {
   const glm::dvec3& origin = points.front();
   double largest = 0.0;
@@ -66,7 +69,8 @@ std::optional<glm::dvec3> FindCommonNormal(const std::vector<glm::dvec3>& points
     return std::nullopt;
   }
   normal = glm::normalize(normal);
-  const double tolerance = 16.0 * std::numeric_limits<double>::epsilon() * largest;
+  const double tolerance = 16.0 * std::numeric_limits<double>::epsilon() * largest +
+    RoundingsOfPlane * glm::dot(glm::abs(normal), rounding);
   const bool isFlat = std::all_of(points.begin(), points.end(),
     [&](const glm::dvec3& p) { return std::abs(glm::dot(p - origin, normal)) <= tolerance; });
   return isFlat ? std::optional<glm::dvec3>(normal) : std::nullopt;
@@ -103,12 +107,13 @@ BlockingRegion::BlockingRegion(
   }
   if (!hull.AreDirections && !hull.Points.empty())
   {
-    this->LightNormal = FindCommonNormal(hull.Points);
+    this->LightNormal = FindCommonNormal(hull.Points, seen.Rounding);
   }
   if (this->LightNormal)
   {
     const Parallelogram& base = frame.GetBase();
     const glm::dvec3& n = *this->LightNormal;
+    this->LightRounding = RoundingsOfPlane * glm::dot(glm::abs(n), seen.Rounding);
     this->LightPlane = { glm::dot(n, base.EdgeX), glm::dot(n, base.EdgeY),
       glm::dot(n, frame.GetNormal()) * frame.GetSize(),
       glm::dot(n, base.Corner - hull.Points.front()) };
@@ -119,7 +124,10 @@ bool BlockingRegion::LiesInLight(
   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tolerance) const
 {
   const auto isNear = [&](const glm::dvec3& p)
-  { return std::abs(glm::dot(this->LightPlane, glm::dvec4(p, 1.0))) <= tolerance; };
+  {
+    return std::abs(glm::dot(this->LightPlane, glm::dvec4(p, 1.0))) <=
+      tolerance + this->LightRounding;
+  };
   return this->LightNormal && isNear(a) && isNear(b) && isNear(c);
 }
 

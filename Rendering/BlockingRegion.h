@@ -51,8 +51,8 @@ public:
 
   /// The unit normal, in the world, of the plane that a flat light lies in.
   const std::optional<glm::dvec3>& GetLightNormal() const { return this->LightNormal; }
-  /// Whether the triangle lies in that plane, up to a distance in the world: then it blocks
-  /// nothing, since rays meet the plane in the light alone.
+  /// Whether the triangle lies in that plane, up to a distance in the world beside the rounding of
+  /// the light: then it blocks nothing, since rays meet the plane in the light alone.
   bool LiesInLight(
     const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double tolerance) const;
 
@@ -73,6 +73,7 @@ private:
   glm::dvec2 Low{ 0.0 }, High{ 0.0 };
   double Top = 0.0;
   std::optional<glm::dvec3> LightNormal;
+  double LightRounding = 0.0;   ///< of the distance from its plane, in the world
   glm::dvec4 LightPlane{ 0.0 }; ///< (u, v, h, 1) to the distance from it in the world
 };
 

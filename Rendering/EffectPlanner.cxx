@@ -18,13 +18,14 @@ constexpr int PeakPoints = 5;
 
 constexpr std::array<glm::dvec2, 4> Corners{ { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } };
 
-/// The lights as the receiver sees them: what lies in front of it.
+/// The lights as the receiver sees them: what lies in front of it, with the sides that face it.
 std::vector<Light> ClipLights(const std::vector<Light>& lights, const ReceiverFrame& frame)
 {
   std::vector<Light> seen;
   for (const Light& light : lights)
   {
-    seen.emplace_back(light->Clip(frame.GetBase().Corner, frame.GetNormal()));
+    const auto front = light->Clip(frame.GetBase().Corner, frame.GetNormal());
+    seen.emplace_back(front->Face(frame.GetBase()));
   }
   return seen;
 }

@@ -30,6 +30,8 @@ struct LightSample
   /// would stand for if it were the only one.
   glm::dvec3 Normal{ 0.0 };
   glm::dvec3 Power{ 0.0 };
+  /// How far polygons with the cell's vertices, triangulated in whatever way, may be from Place.
+  double Unevenness = 0.0;
 };
 
 /**
@@ -83,6 +85,8 @@ public:
   glm::dvec3 Radiance{ 1.0 };
   /// Whether a surface emits to both sides; nothing to other kinds.
   bool TwoSided = false;
+  /// How far the light's coordinates may be off by the rounding of their type, along each axis.
+  glm::dvec3 Rounding{ 0.0 };
 
   virtual std::unique_ptr<LightShape> Clone() const = 0;
 
@@ -98,6 +102,13 @@ public:
    */
   virtual std::unique_ptr<LightShape> Clip(
     const glm::dvec3& point, const glm::dvec3& normal) const = 0;
+
+  /// The same light for one receiver. Where cells emit to both sides, each of its cells has one
+  /// side, which the receiver sees; other lights stay as they are.
+  virtual std::unique_ptr<LightShape> Face(const Parallelogram& /*receiver*/) const
+  {
+    return this->Clone();
+  }
 
   /// Whether light can leave towards the point.
   virtual bool Faces(const glm::dvec3& point) const = 0;

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -38,6 +39,40 @@ std::vector<PolygonLight> SplitIntoFans(const PolygonLight& cell, std::size_t mo
     fans.back().TwoSided = cell.TwoSided;
   }
   return fans;
+}
+
+/// The same polygon, which emits to the other side.
+PolygonLight TurnRound(const PolygonLight& cell)
+{
+  std::vector<glm::dvec3> vertices = cell.GetVertices();
+  std::reverse(vertices.begin() + 1, vertices.end());
+  PolygonLight turned = PolygonLight::Convex(vertices);
+  turned.Radiance = cell.Radiance;
+  turned.TwoSided = cell.TwoSided;
+  return turned;
+}
+
+/// Whether the polygon emits to any of the receiver: to one of its corners.
+bool FacesAny(const PolygonLight& cell, const Parallelogram& receiver)
+{
+  const glm::dvec3 &x = receiver.EdgeX, &y = receiver.EdgeY;
+  const std::array<glm::dvec3, 4> corners{ receiver.Corner, receiver.Corner + x,
+    receiver.Corner + y, receiver.Corner + x + y };
+  return std::any_of(
+    corners.begin(), corners.end(), [&](const glm::dvec3& corner) { return cell.Faces(corner); });
+}
+
+/// How far two triangulations of a polygon may be apart, where its vertices are not in one plane.
+double GetUnevenness(const PolygonLight& cell)
+{
+  double low = 0.0, high = 0.0; // of the vertices, along the normal
+  for (const glm::dvec3& vertex : cell.GetVertices())
+  {
+    const double height = glm::dot(vertex - cell.GetVertices().front(), cell.GetNormal());
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return high - low;
 }
 
 } // namespace
@@ -109,12 +144,44 @@ SurfaceLight SurfaceLight::WithCells(const Change& change) const
   SurfaceLight result(cells);
   result.Radiance = this->Radiance;
   result.TwoSided = this->TwoSided;
+  result.Rounding = this->Rounding;
   return result;
 }
 
 SurfaceLight SurfaceLight::Transformed(const glm::dmat4& matrix) const
 {
-  return this->WithCells([&](const PolygonLight& cell) { return cell.Transformed(matrix); });
+  SurfaceLight result =
+    this->WithCells([&](const PolygonLight& cell) { return cell.Transformed(matrix); });
+  const glm::dmat3 size(glm::abs(glm::dvec3(matrix[0])), glm::abs(glm::dvec3(matrix[1])),
+    glm::abs(glm::dvec3(matrix[2])));
+  result.Rounding = size * this->Rounding;
+  return result;
+}
+
+std::unique_ptr<LightShape> SurfaceLight::Face(const penumbra::Parallelogram& receiver) const
+{
+  if (!this->TwoSided)
+  {
+    return this->Clone();
+  }
+  std::vector<PolygonLight> cells;
+  for (const PolygonLight& cell : this->Cells)
+  {
+    PolygonLight front = cell;
+    front.TwoSided = false;
+    PolygonLight back = TurnRound(front);
+    for (PolygonLight& side : std::array<PolygonLight, 2>{ front, back })
+    {
+      if (FacesAny(side, receiver))
+      {
+        cells.push_back(side);
+      }
+    }
+  }
+  SurfaceLight result(cells);
+  result.Radiance = this->Radiance;
+  result.Rounding = this->Rounding;
+  return std::make_unique<SurfaceLight>(result);
 }
 
 SurfaceLight SurfaceLight::ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const
@@ -207,17 +274,18 @@ std::vector<LightSample> SurfaceLight::TakeSamples(const std::vector<glm::dvec2>
     sample.Place = cell.Sample({ std::clamp((s.x - begin) / share, 0.0, 1.0), s.y });
     sample.Normal = cell.GetNormal();
     sample.Power = this->Radiance * cell.Radiance * cell.GetArea() / share;
+    sample.Unevenness = GetUnevenness(cell);
   }
   return samples;
 }
 
 bool SurfaceLight::HasOneHue() const
 {
-  constexpr double Rounding = 1e-12;
+  constexpr double Parallel = 1e-12;
   const glm::dvec3 hue = glm::normalize(this->Cells.front().Radiance);
   return std::all_of(this->Cells.begin(), this->Cells.end(),
     [&](const PolygonLight& cell) {
-      return glm::length(glm::cross(hue, cell.Radiance)) <= Rounding * glm::length(cell.Radiance);
+      return glm::length(glm::cross(hue, cell.Radiance)) <= Parallel * glm::length(cell.Radiance);
     });
 }
 
@@ -234,6 +302,7 @@ std::vector<EmittingPolygon> SurfaceLight::GetPolygons() const
 std::vector<double> SurfaceLight::GetKey() const
 {
   std::vector<double> key = this->MakeKey(5);
+  key.insert(key.end(), { this->Rounding.x, this->Rounding.y, this->Rounding.z });
   for (const PolygonLight& cell : this->Cells)
   {
     const std::vector<double> cellKey = cell.GetKey();

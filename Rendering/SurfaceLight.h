@@ -34,6 +34,13 @@ public:
   SurfaceLight Transformed(const glm::dmat4& matrix) const;
   SurfaceLight ClippedToFront(const glm::dvec3& point, const glm::dvec3& normal) const;
 
+  /**
+   * The cells with the sides that the receiver sees. A cell of two sides is one that emits to one
+   * side alone if all of the receiver is on that side, or two cells if the cell's plane cuts the
+   * receiver: a sample then has a front, before which its own cell hides nothing.
+   */
+  std::unique_ptr<LightShape> Face(const Parallelogram& receiver) const override;
+
   bool IsValid() const override { return !this->Cells.empty(); }
   bool Faces(const glm::dvec3& point) const override;
   LightHull GetHull() const override;

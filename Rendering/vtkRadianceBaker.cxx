@@ -32,14 +32,51 @@ namespace
 /// have no projection, and it sends nothing. What is lower is rounding.
 constexpr double SmallestSampleHeight = std::numeric_limits<double>::epsilon();
 
-std::vector<penumbra::RegisteredProjection> MakeProjections(
-  const std::vector<penumbra::LightSample>& samples, const penumbra::ReceiverFrame& frame)
+/// The largest coordinates in the receiver's frame that a light's projections are made of: its own,
+/// and the receiver's.
+glm::dvec3 GetReach(const penumbra::LightShape& light, const penumbra::ReceiverFrame& frame)
 {
+  glm::dvec3 reach(1.0, 1.0, 0.0);
+  for (const glm::dvec3& point : light.GetHull().Points)
+  {
+    reach = glm::max(reach, glm::abs(frame.ToFrame(point)));
+  }
+  return reach;
+}
+
+/**
+ * Where a sample is that its own cell, drawn in single precision, is surely behind: before the
+ * cell by what rounding may move its plane. Backward, the projection of a vertex has four roundings
+ * along each axis: of the coordinate, of k, of their product and of the difference. Those of the
+ * sample's and of the cell's are eight, of half an epsilon each. Unless that takes the sample to
+ * the receiver, of which it keeps half the height.
+ */
+glm::dvec3 MoveBeforeCell(const penumbra::LightSample& sample, const penumbra::ReceiverFrame& frame,
+  const glm::dvec3& reach)
+{
+  constexpr double Roundings = 4.0 * std::numeric_limits<float>::epsilon();
+  const penumbra::Parallelogram& base = frame.GetBase();
+  const glm::dvec3 along(glm::dot(sample.Normal, base.EdgeX), glm::dot(sample.Normal, base.EdgeY),
+    glm::dot(sample.Normal, frame.GetNormal()) * frame.GetSize());
+  const double wanted = Roundings * glm::dot(glm::abs(along), reach) + sample.Unevenness;
+  const glm::dvec3 place = frame.ToFrame(sample.Place);
+  const glm::dvec3 step = frame.DirectionToFrame(sample.Normal);
+  const double most = step.z < 0.0 ? 0.5 * place.z / -step.z : wanted;
+  return place + std::clamp(wanted, 0.0, std::max(most, 0.0)) * step;
+}
+
+std::vector<penumbra::RegisteredProjection> MakeProjections(
+  const std::vector<penumbra::LightSample>& samples, const penumbra::LightShape& light,
+  const penumbra::ReceiverFrame& frame)
+{
+  const bool hasCells = light.GetEmission() == penumbra::Emission::Cells;
+  const glm::dvec3 reach = hasCells ? GetReach(light, frame) : glm::dvec3(0.0);
   std::vector<penumbra::RegisteredProjection> projections;
   for (const penumbra::LightSample& sample : samples)
   {
-    glm::dvec3 place =
-      sample.IsDirection ? frame.DirectionToFrame(sample.Place) : frame.ToFrame(sample.Place);
+    glm::dvec3 place = hasCells ? MoveBeforeCell(sample, frame, reach)
+      : sample.IsDirection      ? frame.DirectionToFrame(sample.Place)
+                                : frame.ToFrame(sample.Place);
     place.z = std::max(place.z, SmallestSampleHeight);
     projections.push_back(sample.IsDirection ? penumbra::RegisteredProjection::FromDirection(place)
                                              : penumbra::RegisteredProjection::FromPoint(place));
@@ -543,7 +580,7 @@ bool vtkRadianceBaker::DrawMasks(Job& job, std::size_t light,
     return false;
   }
   const std::vector<penumbra::RegisteredProjection> projections =
-    MakeProjections(samples, job.Plan.Frame);
+    MakeProjections(samples, *job.Plan.Lights[light], job.Plan.Frame);
   for (int row = rectangle.Low.y; row < rectangle.High.y; row += rows)
   {
     const penumbra::TexelRectangle band =
@@ -619,7 +656,7 @@ penumbra::DrawProgress vtkRadianceBaker::DrawLightUntil(
     }
   }
   const std::vector<penumbra::RegisteredProjection> projections =
-    MakeProjections(taken, job.Plan.Frame);
+    MakeProjections(taken, *job.Plan.Lights[light], job.Plan.Frame);
   return this->Drawing.Draw(until, masks, this->Geometry, this->Occluders.GetTriangles().size(),
     projections, job.Plan.Texels, all.Low, all.GetArea());
 }

@@ -55,6 +55,17 @@ glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
   return result;
 }
 
+/// How far the points may be off by the rounding of their type, along each axis.
+glm::dvec3 GetRounding(vtkPoints* points)
+{
+  double bounds[6];
+  points->GetBounds(bounds);
+  const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(bounds[0], bounds[2], bounds[4])),
+    glm::abs(glm::dvec3(bounds[1], bounds[3], bounds[5])));
+  const bool isDouble = points->GetDataType() == VTK_DOUBLE;
+  return largest * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
+}
+
 /// Fills the surface's points, in world coordinates, and how far the rounding of their type puts
 /// them off.
 void TransformPoints(vtkPolyData* data, const glm::dmat4& matrix, penumbra::Surface& surface)
@@ -76,14 +87,9 @@ void TransformPoints(vtkPolyData* data, const glm::dmat4& matrix, penumbra::Surf
           glm::dvec3(matrix * glm::dvec4(p[0], p[1], p[2], 1.0));
       }
     });
-  double bounds[6];
-  points->GetBounds(bounds);
-  const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(bounds[0], bounds[2], bounds[4])),
-    glm::abs(glm::dvec3(bounds[1], bounds[3], bounds[5])));
   const glm::dmat3 size(glm::abs(glm::dvec3(matrix[0])), glm::abs(glm::dvec3(matrix[1])),
     glm::abs(glm::dvec3(matrix[2])));
-  const bool isDouble = points->GetDataType() == VTK_DOUBLE;
-  surface.Rounding = size * largest * (isDouble ? DBL_EPSILON : static_cast<double>(FLT_EPSILON));
+  surface.Rounding = size * GetRounding(points);
 }
 
 /// Of each point, the first one at the same place.
@@ -249,6 +255,7 @@ penumbra::SurfaceLight MakeSurfaceLight(vtkPolyData* data, const penumbra::Light
   penumbra::SurfaceLight light(cells);
   light.Radiance = settings.Radiance;
   light.TwoSided = settings.TwoSided;
+  light.Rounding = GetRounding(data->GetPoints());
   return light;
 }
 

@@ -72,7 +72,7 @@ CountedLight::CountedLight(
   const FuzzedScene& scene, const penumbra::ShadowScene& made, std::size_t light)
   : Grid(MakeGrid(scene))
   , Normal(made.MakeFrame(made.Receivers.front()).GetNormal())
-  , Seen(made.Lights[light]->Clip(scene.Base.Corner, this->Normal))
+  , Seen(made.Lights[light]->Clip(scene.Base.Corner, this->Normal)->Face(scene.Base))
   , Samples(this->TakeSamples(scene))
   , Visibility(this->Grid, GetTriangles(scene), GetPlaces(this->Samples),
       this->Seen->GetHull().AreDirections, GetRayTolerance(scene.Base, this->Seen))
