@@ -196,7 +196,7 @@ ReceiverFrame ShadowScene::MakeFrame(const Receiver& receiver) const
 {
   const ReceiverFrame front(receiver.Base, ReceiverFrame::Side::Front);
   const ReceiverFrame back(receiver.Base, ReceiverFrame::Side::Back);
-  if (receiver.Settings.Side != ReceiverSide::Auto)
+  if (receiver.Settings.Side == ReceiverSide::Front || receiver.Settings.Side == ReceiverSide::Back)
   {
     return receiver.Settings.Side == ReceiverSide::Front ? front : back;
   }

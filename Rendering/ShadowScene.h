@@ -10,6 +10,7 @@
 #include "ClusterTree.h"
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
+#include "PlanarRegions.h"
 #include "ReceiverFrame.h"
 #include "ShadowSettings.h"
 
@@ -91,7 +92,13 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// It fills the lower left half of its base, where u + v <= 1: what is beyond is baked, but not
   /// shown.
   bool IsTriangle = false;
+  /// Its side is never Both: vtkShadowSceneBuilder makes two receivers of these settings.
   ReceiverSettings Settings;
+  /// It is the back of a region whose front is a receiver, too (ReceiverSide::Both): as data, its
+  /// texels are in the order of a parallelogram with the edges exchanged, which faces the light.
+  bool IsTurned = false;
+  /// The closed surface that it is a part of, if it is and no light passes it.
+  std::optional<ClosedSurface> Enclosed;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
   /// ChooseTexels() has chosen the texels without a TexelSize: shadows that these are too large for
@@ -100,6 +107,9 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// Of a window of another receiver that is shown by itself (FineWindow): that one's index among
   /// the scene's.
   std::optional<std::size_t> WindowOf;
+  /// Of the other side of a receiver, which is lit, too, and shown with it: that one's index among
+  /// the scene's.
+  std::optional<std::size_t> OtherSideOf;
   /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
   /// from here, homogeneous, in the world.
   std::optional<glm::dvec4> ProxyCentre;

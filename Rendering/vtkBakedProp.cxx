@@ -497,10 +497,10 @@ std::vector<glm::vec4> vtkBakedProp::Download(
     : MergeHalves(this->Texture->GetRegions()[entry], shown, std::move(texels));
 }
 
-std::size_t vtkBakedProp::CountWindows() const
+std::size_t vtkBakedProp::CountParts() const
 {
   return static_cast<std::size_t>(std::count_if(this->Entries.begin(), this->Entries.end(),
-    [](const Entry& entry) { return entry.Settings.WindowOf.has_value(); }));
+    [](const Entry& entry) { return entry.Settings.WindowOf || entry.Settings.OtherSideOf; }));
 }
 
 vtkRadianceBaker::Report vtkBakedProp::GetReport(std::size_t entry) const

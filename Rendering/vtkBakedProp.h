@@ -111,9 +111,10 @@ public:
   const std::vector<Entry>& GetEntries() const { return this->Entries; }
 
   /**
-   * How many of the entries are windows of others (penumbra::Receiver::WindowOf): the last ones.
+   * How many of the entries are parts of others, their windows (penumbra::Receiver::WindowOf) or
+   * other sides (penumbra::Receiver::OtherSideOf): the last ones.
    */
-  std::size_t CountWindows() const;
+  std::size_t CountParts() const;
 
   /**
    * What was done for an entry, and for the windows that it has.

@@ -153,6 +153,21 @@ penumbra::PlanarRegions PlaceOnProxy(const penumbra::PolygonMesh& mesh,
   return region;
 }
 
+/// Adds the receiver, or one for each of both sides.
+void AddSides(penumbra::Receiver receiver, std::vector<penumbra::Receiver>& receivers)
+{
+  if (receiver.Settings.Side != penumbra::ReceiverSide::Both)
+  {
+    receivers.push_back(receiver);
+    return;
+  }
+  receiver.Settings.Side = penumbra::ReceiverSide::Front;
+  receivers.push_back(receiver);
+  receiver.Settings.Side = penumbra::ReceiverSide::Back;
+  receiver.IsTurned = true;
+  receivers.push_back(receiver);
+}
+
 /// Only polygons: vertices and lines neither block nor receive, and strips become triangles.
 vtkSmartPointer<vtkPolyData> WithoutStrips(vtkPolyData* data)
 {
@@ -473,6 +488,7 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
 {
   std::string problem = settings.FindProblem();
   penumbra::PlanarRegions found;
+  std::vector<std::optional<penumbra::ClosedSurface>> closed;
   penumbra::Receiver receiver;
   receiver.Surface = this->Scene.Surfaces.size();
   receiver.Settings = settings;
@@ -488,6 +504,10 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
       found = PlaceOnProxy(mesh, lit, receiver);
       this->HasProxy = true;
     }
+    else if (!surface.IsTranslucent())
+    {
+      closed = penumbra::FindClosedSurfaces(mesh, found);
+    }
     problem = found.Problem;
   }
   if (!problem.empty())
@@ -502,7 +522,8 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
     receiver.Region = static_cast<int>(i);
     receiver.Base = found.Regions[i].Base;
     receiver.IsTriangle = found.Regions[i].IsTriangle;
-    this->Scene.Receivers.push_back(receiver);
+    receiver.Enclosed = closed.empty() ? std::nullopt : closed[i];
+    AddSides(receiver, this->Scene.Receivers);
   }
   const double growth = this->Scene.ChooseTexels(first);
   if (growth > 1.0)
