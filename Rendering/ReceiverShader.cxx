@@ -73,21 +73,6 @@ std::string MakeDefines(const ShadowCode& code)
   return defines;
 }
 
-/// vtkReceiverTable's MiddleLight of a receiver.
-float FindMiddleLight(const ReceiverPlan& plan)
-{
-  const glm::dvec3 middle = plan.Frame.ToWorld({ 0.5, 0.5, 0.0 });
-  glm::dvec3 arriving(0.0);
-  for (const Light& light : plan.Lights)
-  {
-    if (light->IsValid())
-    {
-      arriving += light->Irradiance(middle, plan.Frame.GetNormal());
-    }
-  }
-  return static_cast<float>((arriving.x + arriving.y + arriving.z) / 3.0);
-}
-
 /// Whether the side of a receiver that its texels are for is seen.
 bool IsSeen(const ReceiverPlan& plan, const ScreenMatrices& matrices)
 {
@@ -173,8 +158,9 @@ void SetReceiverUniforms(
   const ReceiverSettings& settings = entry.Settings.Settings;
   SetUniform(program, "penumbraAmbient", glm::vec3(settings.AmbientRadiance));
   SetUniform(program, "penumbraReflectance", glm::vec3(settings.Reflectance));
-  program->SetUniformf("penumbraMiddleLight", FindMiddleLight(entry.Plan));
-  program->SetUniformi("penumbraIsSeen", entry.Settings.ProxyCentre || IsSeen(entry.Plan, matrices));
+  program->SetUniformf("penumbraMiddleLight", entry.MiddleLight);
+  program->SetUniformi(
+    "penumbraIsSeen", entry.Settings.ProxyCentre || IsSeen(entry.Plan, matrices));
 }
 
 void SetReceiverUniforms(
@@ -237,7 +223,7 @@ std::vector<vtkReceiverTable::Record> MakeReceiverRecords(vtkBakedProp* baked)
       const bool isFront = entries[i].Plan.GetSide() == ReceiverSide::Front;
       const bool hasBoth = sides[{ receiver.Surface, receiver.Region }] == BothSides;
       record.SeenSide = (isFront ? 1.0f : -1.0f) * (hasBoth ? 2.0f : 1.0f);
-      record.MiddleLight = FindMiddleLight(entries[i].Plan);
+      record.MiddleLight = entries[i].MiddleLight;
     }
     records.push_back(record);
   }

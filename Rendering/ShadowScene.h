@@ -94,8 +94,10 @@ struct PENUMBRARENDERING_EXPORT Receiver
   bool IsTriangle = false;
   /// Its side is never Both: vtkShadowSceneBuilder makes two receivers of these settings.
   ReceiverSettings Settings;
-  /// It is the back of a region whose front is a receiver, too (ReceiverSide::Both): as data, its
-  /// texels are in the order of a parallelogram with the edges exchanged, which faces the light.
+  /// It is one side of a region whose other side is a receiver, too: ReceiverSide::Both.
+  bool IsOneOfBoth = false;
+  /// It is the back of these: as data, its texels are in the order of a parallelogram with the
+  /// edges exchanged, whose normal is that of the back.
   bool IsTurned = false;
   /// The closed surface that it is a part of, if it is and no light passes it.
   std::optional<ClosedSurface> Enclosed;
@@ -116,6 +118,13 @@ struct PENUMBRARENDERING_EXPORT Receiver
 
   /// Of the texels times Supersampling squared.
   double GetBakedTexels() const;
+
+  ///@{
+  /// As data: the parallelogram, the texels along its edges, and which texel is the i-th.
+  Parallelogram GetDataBase() const;
+  glm::ivec2 GetDataTexels() const;
+  std::size_t GetTexelOfData(std::size_t i) const;
+  ///@}
 };
 
 /**

@@ -107,6 +107,8 @@ public:
     std::vector<vtkRadianceBaker::KeptLight> Kept;
     vtkRadianceBaker::Report Report; ///< of its last bake
     bool HasWindows = false;         ///< that are entries: its own texels have no small shadows
+    /// The mean of what arrives at its middle, irradiance over pi, were nothing in the way.
+    float MiddleLight = 0.0f;
   };
   const std::vector<Entry>& GetEntries() const { return this->Entries; }
 

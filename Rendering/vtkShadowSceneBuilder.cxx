@@ -161,6 +161,7 @@ void AddSides(penumbra::Receiver receiver, std::vector<penumbra::Receiver>& rece
     receivers.push_back(receiver);
     return;
   }
+  receiver.IsOneOfBoth = true;
   receiver.Settings.Side = penumbra::ReceiverSide::Front;
   receivers.push_back(receiver);
   receiver.Settings.Side = penumbra::ReceiverSide::Back;

@@ -507,8 +507,8 @@ std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddOtherSides(
   return ofProps;
 }
 
-void vtkSoftShadowPass::FitTextures(const std::vector<std::vector<std::size_t>>& ofProps,
-  std::vector<penumbra::ReceiverPlan>& plans)
+void vtkSoftShadowPass::FitTextures(
+  const std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans)
 {
   std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
   std::vector<penumbra::TextureNeed> asked;
@@ -557,8 +557,8 @@ void vtkSoftShadowPass::FitTextures(const std::vector<std::vector<std::size_t>>&
   this->Impl->BudgetWarning = problem;
 }
 
-void vtkSoftShadowPass::AddWindows(std::vector<std::vector<std::size_t>>& ofProps,
-  std::vector<penumbra::ReceiverPlan>& plans)
+void vtkSoftShadowPass::AddWindows(
+  std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans)
 {
   // Half of what memory is left is theirs.
   std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
@@ -720,7 +720,11 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);
       array->SetNumberOfTuples(static_cast<vtkIdType>(texels.size()));
-      std::copy_n(&texels.front().x, 4 * texels.size(), array->GetPointer(0));
+      const penumbra::Receiver& settings = shown.Baked->GetEntries()[index].Settings;
+      for (std::size_t i = 0; i < texels.size(); ++i)
+      {
+        array->SetTypedTuple(static_cast<vtkIdType>(i), &texels[settings.GetTexelOfData(i)].x);
+      }
       return array;
     }
     index -= shown.CountReceivers();

@@ -235,8 +235,8 @@ private:
   /// receivers, these last.
   std::vector<std::vector<std::size_t>> AddOtherSides(std::vector<penumbra::ReceiverPlan>& plans);
   /// Adds windows of receivers as receivers of their props, with their plans.
-  void AddWindows(std::vector<std::vector<std::size_t>>& ofProps,
-    std::vector<penumbra::ReceiverPlan>& plans);
+  void AddWindows(
+    std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans);
   void BakeReceivers(vtkOpenGLRenderWindow* window);
   /// Bakes what is a draft as it is to be: in a PROGRESSIVE frame, as much as there is time for.
   void FinishDrafts();
