@@ -36,8 +36,8 @@ namespace
 /// The corners of the texels.
 void AddPoints(const penumbra::Receiver& receiver, vtkStructuredGrid* grid)
 {
-  const glm::ivec2 texels = receiver.Texels;
-  const penumbra::Parallelogram& base = receiver.Base;
+  const glm::ivec2 texels = receiver.GetDataTexels();
+  const penumbra::Parallelogram base = receiver.GetDataBase();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(
@@ -79,14 +79,14 @@ void AddCells(const penumbra::Receiver& receiver, const vtkRadianceTexture::Texe
   const glm::vec3 third(1.0f / 3.0f);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const glm::vec4& arriving = texels.Irradiance[static_cast<std::size_t>(i)];
+    const std::size_t texel = receiver.GetTexelOfData(static_cast<std::size_t>(i));
+    const glm::vec4& arriving = texels.Irradiance[texel];
     const glm::vec3 reflected = reflectance * (ambient + glm::vec3(arriving));
     radiance->SetTypedTuple(i, &reflected.x);
     const float seen = glm::dot(glm::vec3(arriving), third);
     const float blocked = arriving.a;
     visibility->SetValue(i, blocked > 0.0f ? seen / (seen + blocked) : 1.0f);
-    const float variance = texels.Variance[static_cast<std::size_t>(i)];
-    error->SetValue(i, std::sqrt(variance));
+    error->SetValue(i, std::sqrt(texels.Variance[texel]));
   }
   grid->GetCellData()->AddArray(radiance);
   grid->GetCellData()->AddArray(visibility);
@@ -253,7 +253,13 @@ int vtkRadianceMap::RequestData(
       AddPoints(receiver, grid);
       AddCells(receiver, texture->Download(texture->GetRegions()[i]), grid);
       AddReport(reports[i], grid);
-      output->SetBlock(output->GetNumberOfBlocks(), grid);
+      const unsigned int block = output->GetNumberOfBlocks();
+      output->SetBlock(block, grid);
+      if (receiver.IsOneOfBoth)
+      {
+        output->GetMetaData(block)->Set(
+          vtkCompositeDataSet::NAME(), receiver.IsTurned ? "Back" : "Front");
+      }
     }
     texture->ReleaseGraphicsResources();
   }

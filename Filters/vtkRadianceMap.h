@@ -18,8 +18,10 @@
  * plane.
  *
  * The output has a vtkStructuredGrid for each receiver, in the order of the inputs and of the
- * polygons in each. Its cells are the texels: points (double) at b + i/sx ex + j/sy ey, i fastest,
- * and the cell arrays
+ * polygons in each. Where vtkShadowReceiver's Side is BOTH there are two, named "Front" and "Back":
+ * first the front's, then the back's, with the edges exchanged, so that ex x ey points to the side
+ * that is lit; a cell has the same values, to the bit, as with Side BACK alone. Its cells are the
+ * texels: points (double) at b + i/sx ex + j/sy ey, i fastest, and the cell arrays
  * - Radiance (float, 3 components): reflected radiance at the cell's centre, W sr^-1 m^-2
  *   (Heckbert and Herf 1997, eq. 1);
  * - Visibility (float): of the light that would arrive unoccluded, ambient radiance aside, the

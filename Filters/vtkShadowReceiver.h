@@ -46,7 +46,8 @@ public:
   {
     AUTO = 0,  ///< the side that gets more light
     FRONT = 1, ///< the side from which its polygons are seen counter-clockwise
-    BACK = 2
+    BACK = 2,
+    BOTH = 3 ///< each by the light that arrives there: two receivers, the front first
   };
 
   /// Planes that may stand for a surface.
@@ -120,10 +121,16 @@ public:
 
   ///@{
   /**
-   * Which side is lit: see Sides. Default is AUTO.
+   * Which side is lit: see Sides. Default is AUTO. In a view, the other side shows the light that
+   * arrives there with AUTO, and the ambient radiance alone with FRONT and BACK. What stands for a
+   * surface that is not planar (ProxyPlane) has one side: BOTH is AUTO there.
    */
   vtkSetMacro(Side, int);
   vtkGetMacro(Side, int);
+  void SetSideToAuto() { this->SetSide(AUTO); }
+  void SetSideToFront() { this->SetSide(FRONT); }
+  void SetSideToBack() { this->SetSide(BACK); }
+  void SetSideToBoth() { this->SetSide(BOTH); }
   ///@}
 
   ///@{

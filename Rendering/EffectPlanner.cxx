@@ -398,6 +398,24 @@ PairPlan PlanPair(const ReceiverPlan& plan, const LightShape& seen, const Shadow
   return pair;
 }
 
+/// Whether a part of a light may be in a box: by the bounds of its hull.
+bool MayTouch(const LightShape& light, const ClosedSurface& box)
+{
+  const LightHull hull = light.GetHull();
+  if (hull.AreDirections)
+  {
+    return false;
+  }
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const glm::dvec3& p : hull.Points)
+  {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return glm::all(glm::lessThanEqual(low, box.High)) &&
+    glm::all(glm::greaterThanEqual(high, box.Low));
+}
+
 } // namespace
 
 const char* GetEffectName(Effect effect)
@@ -532,6 +550,34 @@ ReceiverPlan PlanReceiver(
     LeaveOutFaintLights(plan, receiver.Settings);
   }
   return plan;
+}
+
+std::optional<Receiver> FindOtherSide(
+  const ShadowScene& scene, std::size_t receiver, const ReceiverPlan& plan)
+{
+  Receiver other = scene.Receivers[receiver];
+  if (other.Settings.Side != ReceiverSide::Auto || other.ProxyCentre)
+  {
+    return std::nullopt;
+  }
+  const bool isBack = plan.GetSide() == ReceiverSide::Front;
+  const ReceiverFrame frame(
+    other.Base, isBack ? ReceiverFrame::Side::Back : ReceiverFrame::Side::Front);
+  const bool isInside = other.Enclosed && other.Enclosed->IsBehind == isBack;
+  const std::vector<Light> seen = ClipLights(scene.Lights, frame);
+  const bool isLit = std::any_of(seen.begin(), seen.end(),
+    [&](const Light& light)
+    {
+      return PlanEffect(frame, *light, false) != Effect::None &&
+        (!isInside || MayTouch(*light, *other.Enclosed));
+    });
+  if (!isLit)
+  {
+    return std::nullopt;
+  }
+  other.Settings.Side = isBack ? ReceiverSide::Back : ReceiverSide::Front;
+  other.OtherSideOf = receiver;
+  return other;
 }
 
 } // namespace penumbra

@@ -15,6 +15,7 @@
 #include "ShadowScene.h"
 #include "TexelRectangle.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,14 @@ PENUMBRARENDERING_EXPORT ReceiverPlan PlanWindow(const ShadowScene& scene, const
  */
 PENUMBRARENDERING_EXPORT ReceiverPlan PlanReceiver(
   const ShadowScene& scene, const Receiver& receiver, OccluderSelector& occluders);
+
+/**
+ * The other side of a receiver that has been planned, if it is to be shown with it: the receiver's
+ * Side is Auto, some light reaches the other side, and that is not the inside of a closed surface
+ * whose bounds no light touches.
+ */
+PENUMBRARENDERING_EXPORT std::optional<Receiver> FindOtherSide(
+  const ShadowScene& scene, std::size_t receiver, const ReceiverPlan& plan);
 
 } // namespace penumbra
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -460,6 +461,122 @@ std::vector<int> FindCurved(
   return curvedBy;
 }
 
+/// An edge of a polygon: its points, the lower first, and whether it runs from the lower.
+struct HalfEdge
+{
+  std::pair<int, int> Points;
+  bool IsForward;
+  int Polygon;
+};
+
+/// The edges of all polygons; those between the same points stand side by side.
+std::vector<HalfEdge> FindHalfEdges(const PolygonMesh& mesh)
+{
+  std::vector<HalfEdge> edges;
+  for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
+  {
+    const std::vector<int>& polygon = mesh.Polygons[p];
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const int a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      if (a != b)
+      {
+        edges.push_back({ std::minmax(a, b), a < b, static_cast<int>(p) });
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+    [](const HalfEdge& a, const HalfEdge& b)
+    { return std::tie(a.Points, a.Polygon) < std::tie(b.Points, b.Polygon); });
+  return edges;
+}
+
+/// A connected part of a mesh: its bounds, and the volume inside it if it is closed.
+struct SurfacePart
+{
+  glm::dvec3 Low{ std::numeric_limits<double>::infinity() };
+  glm::dvec3 High{ -std::numeric_limits<double>::infinity() };
+  glm::dvec3 Origin{ 0.0 }; ///< one of its points: volumes far from the world's lose nothing
+  double Volume = 0.0;      ///< positive if the polygons' fronts are outside
+  bool IsEmpty = true;
+  bool IsClosed = true;
+
+  void Add(const PolygonMesh& mesh, const std::vector<int>& polygon)
+  {
+    for (const int i : polygon)
+    {
+      const glm::dvec3& point = mesh.Points[static_cast<std::size_t>(i)];
+      this->Origin = this->IsEmpty ? point : this->Origin;
+      this->IsEmpty = false;
+      this->Low = glm::min(this->Low, point);
+      this->High = glm::max(this->High, point);
+    }
+    if (!polygon.empty())
+    {
+      const glm::dvec3& point = mesh.Points[static_cast<std::size_t>(polygon.front())];
+      this->Volume += glm::dot(point - this->Origin, AreaVector(mesh, polygon));
+    }
+  }
+};
+
+/// The parts of a mesh whose polygons are connected by edges.
+class SurfaceParts
+{
+public:
+  explicit SurfaceParts(const PolygonMesh& mesh)
+    : Parents(mesh.Polygons.size())
+    , Parts(mesh.Polygons.size())
+  {
+    std::iota(this->Parents.begin(), this->Parents.end(), 0);
+    const std::vector<HalfEdge> edges = FindHalfEdges(mesh);
+    for (std::size_t i = 1; i < edges.size(); ++i)
+    {
+      if (edges[i].Points == edges[i - 1].Points)
+      {
+        this->Parents[this->Find(edges[i].Polygon)] =
+          static_cast<int>(this->Find(edges[i - 1].Polygon));
+      }
+    }
+    for (std::size_t p = 0; p < mesh.Polygons.size(); ++p)
+    {
+      this->Parts[this->Find(static_cast<int>(p))].Add(mesh, mesh.Polygons[p]);
+    }
+    this->FindOpenOnes(edges);
+  }
+
+  const SurfacePart& Get(int polygon) { return this->Parts[this->Find(polygon)]; }
+
+private:
+  std::size_t Find(int polygon)
+  {
+    auto i = static_cast<std::size_t>(polygon);
+    while (static_cast<std::size_t>(this->Parents[i]) != i)
+    {
+      this->Parents[i] = this->Parents[static_cast<std::size_t>(this->Parents[i])];
+      i = static_cast<std::size_t>(this->Parents[i]);
+    }
+    return i;
+  }
+
+  /// Those with an edge that does not have two polygons, one along each of its directions.
+  void FindOpenOnes(const std::vector<HalfEdge>& edges)
+  {
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end)
+    {
+      int forward = 0;
+      for (end = begin; end < edges.size() && edges[end].Points == edges[begin].Points; ++end)
+      {
+        forward += edges[end].IsForward ? 1 : 0;
+      }
+      SurfacePart& part = this->Parts[this->Find(edges[begin].Polygon)];
+      part.IsClosed = part.IsClosed && end - begin == 2 && forward == 1;
+    }
+  }
+
+  std::vector<int> Parents;
+  std::vector<SurfacePart> Parts;
+};
+
 } // namespace
 
 PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
@@ -536,6 +653,26 @@ PlanarRegions FindPlanarRegions(const PolygonMesh& mesh)
   {
     result.Refused = problem +
       (refused > 1 ? " (and " + std::to_string(refused - 1) + " more parts are refused)" : "");
+  }
+  return result;
+}
+
+std::vector<std::optional<ClosedSurface>> FindClosedSurfaces(
+  const PolygonMesh& mesh, const PlanarRegions& regions)
+{
+  SurfaceParts parts(mesh);
+  std::vector<std::optional<ClosedSurface>> result;
+  for (const PlanarRegion& region : regions.Regions)
+  {
+    result.emplace_back();
+    const int first = region.Polygons.front();
+    const SurfacePart& part = parts.Get(first);
+    if (part.IsClosed && part.Volume != 0.0)
+    {
+      const glm::dvec3 area = AreaVector(mesh, mesh.Polygons[static_cast<std::size_t>(first)]);
+      const bool isTurned = glm::dot(area, glm::cross(region.Base.EdgeX, region.Base.EdgeY)) < 0.0;
+      result.back() = { part.Low, part.High, (part.Volume > 0.0) != isTurned };
+    }
   }
   return result;
 }

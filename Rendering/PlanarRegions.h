@@ -10,6 +10,7 @@
 #include "PenumbraRenderingModule.h" // for the export macro
 #include "ReceiverFrame.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,21 @@ struct PlanarRegions
  * left. A region's extent is twice the distance of its farthest point from the mean of its points.
  */
 PENUMBRARENDERING_EXPORT PlanarRegions FindPlanarRegions(const PolygonMesh& mesh);
+
+/// A closed surface among the polygons: its bounds, and where its inside is.
+struct ClosedSurface
+{
+  glm::dvec3 Low{ 0.0 }, High{ 0.0 };
+  bool IsBehind = true; ///< the region's parallelogram, or in front of it
+};
+
+/**
+ * Of each region, the closed surface that it is a part of, if it is: connected by edges, of which
+ * each has two polygons, which are wound alike. Polygons of no area, whose points count as others
+ * do, may be among them.
+ */
+PENUMBRARENDERING_EXPORT std::vector<std::optional<ClosedSurface>> FindClosedSurfaces(
+  const PolygonMesh& mesh, const PlanarRegions& regions);
 
 } // namespace penumbra
 

@@ -18,6 +18,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <map>
+#include <utility>
+
 namespace penumbra
 {
 namespace
@@ -68,6 +71,16 @@ std::string MakeDefines(const ShadowCode& code)
     defines += "#define PENUMBRA_PROXY " + std::to_string(ProxyHeight) + "\n";
   }
   return defines;
+}
+
+/// Whether the side of a receiver that its texels are for is seen.
+bool IsSeen(const ReceiverPlan& plan, const ScreenMatrices& matrices)
+{
+  const glm::dmat4 viewToWorld = glm::inverse(matrices.WorldToView);
+  const glm::dvec3 towardsEye = matrices.AreRaysParallel()
+    ? glm::dvec3(viewToWorld[2])
+    : glm::dvec3(viewToWorld[3]) - plan.Frame.GetBase().Corner;
+  return glm::dot(towardsEye, plan.Frame.GetNormal()) >= 0.0;
 }
 
 void SetUniform(vtkShaderProgram* program, const char* name, const glm::vec3& value)
@@ -145,6 +158,9 @@ void SetReceiverUniforms(
   const ReceiverSettings& settings = entry.Settings.Settings;
   SetUniform(program, "penumbraAmbient", glm::vec3(settings.AmbientRadiance));
   SetUniform(program, "penumbraReflectance", glm::vec3(settings.Reflectance));
+  program->SetUniformf("penumbraMiddleLight", entry.MiddleLight);
+  program->SetUniformi(
+    "penumbraIsSeen", entry.Settings.ProxyCentre || IsSeen(entry.Plan, matrices));
 }
 
 void SetReceiverUniforms(
@@ -160,14 +176,13 @@ void SetReceiverUniforms(
     "penumbraFromView", const_cast<float*>(glm::value_ptr(fromView))); // VTK does not change it
   SetUniform(program, "penumbraEye", glm::vec3(eye));
   SetUniform(program, "penumbraEyeRest", glm::vec3(eye - glm::dvec3(glm::vec3(eye))));
+  const glm::vec4 sight(-fromView[2], matrices.AreRaysParallel() ? 1.0f : 0.0f);
+  program->SetUniform4f("penumbraSight", glm::value_ptr(sight));
   if (program->IsUniformUsed("penumbraToView"))
   {
     const glm::mat4 toView(MakeWindowToView(matrices.ViewToClip, matrices.Viewport));
     program->SetUniformMatrix4x4(
       "penumbraToView", const_cast<float*>(glm::value_ptr(toView))); // VTK does not change it
-    const bool isParallel = matrices.ViewToClip[2][3] == 0.0;
-    const glm::vec4 sight(-fromView[2], isParallel ? 1.0f : 0.0f);
-    program->SetUniform4f("penumbraSight", glm::value_ptr(sight));
   }
 }
 
@@ -176,6 +191,13 @@ std::vector<vtkReceiverTable::Record> MakeReceiverRecords(vtkBakedProp* baked)
   const std::vector<vtkBakedProp::Entry>& entries = baked->GetEntries();
   const std::vector<vtkRadianceTexture::Region>& regions = baked->GetTexture()->GetRegions();
   const glm::vec2 textureSize(baked->GetTexture()->GetSize());
+  constexpr int FrontSide = 1, BackSide = 2, BothSides = FrontSide | BackSide;
+  std::map<std::pair<std::size_t, int>, int> sides; // of each region, those that have texels
+  for (const vtkBakedProp::Entry& entry : entries)
+  {
+    sides[{ entry.Settings.Surface, entry.Settings.Region }] |=
+      entry.Plan.GetSide() == ReceiverSide::Front ? FrontSide : BackSide;
+  }
   std::vector<vtkReceiverTable::Record> records;
   for (std::size_t i = 0; i < entries.size(); ++i)
   {
@@ -196,6 +218,13 @@ std::vector<vtkReceiverTable::Record> MakeReceiverRecords(vtkBakedProp* baked)
       step * (glm::vec2(region.Size) - 2.0f * inset) / textureSize);
     record.Ambient = glm::vec3(receiver.Settings.AmbientRadiance);
     record.Reflectance = glm::vec3(receiver.Settings.Reflectance);
+    if (!receiver.ProxyCentre)
+    {
+      const bool isFront = entries[i].Plan.GetSide() == ReceiverSide::Front;
+      const bool hasBoth = sides[{ receiver.Surface, receiver.Region }] == BothSides;
+      record.SeenSide = (isFront ? 1.0f : -1.0f) * (hasBoth ? 2.0f : 1.0f);
+      record.MiddleLight = entries[i].MiddleLight;
+    }
     records.push_back(record);
   }
   return records;

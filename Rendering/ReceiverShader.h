@@ -46,6 +46,8 @@ struct ScreenMatrices
 
   /// The matrices that the mappers use.
   explicit ScreenMatrices(vtkRenderer* renderer);
+
+  bool AreRaysParallel() const { return this->ViewToClip[2][3] == 0.0; }
 };
 
 ///@{

@@ -143,6 +143,23 @@ double Receiver::GetBakedTexels() const
   return side * side * this->Texels.x * this->Texels.y;
 }
 
+Parallelogram Receiver::GetDataBase() const
+{
+  const Parallelogram& base = this->Base;
+  return this->IsTurned ? Parallelogram{ base.Corner, base.EdgeY, base.EdgeX } : base;
+}
+
+glm::ivec2 Receiver::GetDataTexels() const
+{
+  return this->IsTurned ? glm::ivec2(this->Texels.y, this->Texels.x) : this->Texels;
+}
+
+std::size_t Receiver::GetTexelOfData(std::size_t i) const
+{
+  const glm::uvec2 size(this->Texels);
+  return this->IsTurned ? i / size.y + size.x * (i % size.y) : i;
+}
+
 double ShadowScene::ChooseTexels(std::size_t first)
 {
   double growth = 1.0;
@@ -196,7 +213,7 @@ ReceiverFrame ShadowScene::MakeFrame(const Receiver& receiver) const
 {
   const ReceiverFrame front(receiver.Base, ReceiverFrame::Side::Front);
   const ReceiverFrame back(receiver.Base, ReceiverFrame::Side::Back);
-  if (receiver.Settings.Side != ReceiverSide::Auto)
+  if (receiver.Settings.Side == ReceiverSide::Front || receiver.Settings.Side == ReceiverSide::Back)
   {
     return receiver.Settings.Side == ReceiverSide::Front ? front : back;
   }

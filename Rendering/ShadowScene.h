@@ -10,6 +10,7 @@
 #include "ClusterTree.h"
 #include "LightShape.h"
 #include "PenumbraRenderingModule.h" // for the export macro
+#include "PlanarRegions.h"
 #include "ReceiverFrame.h"
 #include "ShadowSettings.h"
 
@@ -94,7 +95,15 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// How far its own points are off its plane, in the world: what its surface has no higher above
   /// it is no occluder of it.
   double Deviation = 0.0;
+  /// Its side is never Both: vtkShadowSceneBuilder makes two receivers of these settings.
   ReceiverSettings Settings;
+  /// It is one side of a region whose other side is a receiver, too: ReceiverSide::Both.
+  bool IsOneOfBoth = false;
+  /// It is the back of these: as data, its texels are in the order of a parallelogram with the
+  /// edges exchanged, whose normal is that of the back.
+  bool IsTurned = false;
+  /// The closed surface that it is a part of, if it is and no light passes it.
+  std::optional<ClosedSurface> Enclosed;
   /// Texels along EdgeX and EdgeY.
   glm::ivec2 Texels{ 1 };
   /// ChooseTexels() has chosen the texels without a TexelSize: shadows that these are too large for
@@ -103,12 +112,22 @@ struct PENUMBRARENDERING_EXPORT Receiver
   /// Of a window of another receiver that is shown by itself (FineWindow): that one's index among
   /// the scene's.
   std::optional<std::size_t> WindowOf;
+  /// Of the other side of a receiver, which is lit, too, and shown with it: that one's index among
+  /// the scene's.
+  std::optional<std::size_t> OtherSideOf;
   /// Of a plane that stands for a surface (PlaceProxy): the surface's points are projected onto it
   /// from here, homogeneous, in the world.
   std::optional<glm::dvec4> ProxyCentre;
 
   /// Of the texels times Supersampling squared.
   double GetBakedTexels() const;
+
+  ///@{
+  /// As data: the parallelogram, the texels along its edges, and which texel is the i-th.
+  Parallelogram GetDataBase() const;
+  glm::ivec2 GetDataTexels() const;
+  std::size_t GetTexelOfData(std::size_t i) const;
+  ///@}
 };
 
 /**

@@ -116,9 +116,9 @@ std::string ReceiverSettings::FindProblem() const
     return Describe("MaximumLightSamples", this->MaximumLightSamples, "1 to 65536");
   }
   const int side = static_cast<int>(this->Side);
-  if (side < 0 || side > 2)
+  if (side < 0 || side > 3)
   {
-    return Describe("Side", side, "0 (Auto), 1 (Front) or 2 (Back)");
+    return Describe("Side", side, "0 (Auto), 1 (Front), 2 (Back) or 3 (Both)");
   }
   return this->ProxyPlane ? this->FindProxyProblem() : "";
 }

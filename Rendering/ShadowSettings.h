@@ -21,7 +21,8 @@ enum class ReceiverSide
 {
   Auto = 0, ///< the side that gets more light
   Front = 1,
-  Back = 2
+  Back = 2,
+  Both = 3 ///< each is a receiver of its own
 };
 
 /// Which plane stands for a surface that is not planar; the values are those of the property

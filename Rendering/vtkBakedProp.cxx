@@ -131,6 +131,21 @@ penumbra::TexelRectangle FindRectangle(const vtkBakedProp::Entry& entry,
   return AddWindows(Coarsen(change.Resolved, entry.Plan.Supersampling, size), entry.Plan);
 }
 
+/// An entry's MiddleLight.
+float FindMiddleLight(const penumbra::ReceiverPlan& plan)
+{
+  const glm::dvec3 middle = plan.Frame.ToWorld({ 0.5, 0.5, 0.0 });
+  glm::dvec3 arriving(0.0);
+  for (const penumbra::Light& light : plan.Lights)
+  {
+    if (light->IsValid())
+    {
+      arriving += light->Irradiance(middle, plan.Frame.GetNormal());
+    }
+  }
+  return static_cast<float>((arriving.x + arriving.y + arriving.z) / 3.0);
+}
+
 /// Whether more samples would change anything.
 bool HasMoreSamples(const vtkBakedProp::Entry& entry)
 {
@@ -213,6 +228,7 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
     isPlain = isPlain && penumbra::IsPlain(entry.Plan, receiver.Settings);
     entry.Vertices = CountVertices(entry.Plan, receiver.Settings, showsRadiance);
     entry.Report = vtkRadianceBaker::MakeReport(entry.Plan, scene, i);
+    entry.MiddleLight = FindMiddleLight(entry.Plan);
     if (receiver.WindowOf)
     {
       for (Entry& other : entries)
@@ -497,10 +513,10 @@ std::vector<glm::vec4> vtkBakedProp::Download(
     : MergeHalves(this->Texture->GetRegions()[entry], shown, std::move(texels));
 }
 
-std::size_t vtkBakedProp::CountWindows() const
+std::size_t vtkBakedProp::CountParts() const
 {
   return static_cast<std::size_t>(std::count_if(this->Entries.begin(), this->Entries.end(),
-    [](const Entry& entry) { return entry.Settings.WindowOf.has_value(); }));
+    [](const Entry& entry) { return entry.Settings.WindowOf || entry.Settings.OtherSideOf; }));
 }
 
 vtkRadianceBaker::Report vtkBakedProp::GetReport(std::size_t entry) const

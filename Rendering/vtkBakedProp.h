@@ -107,13 +107,16 @@ public:
     std::vector<vtkRadianceBaker::KeptLight> Kept;
     vtkRadianceBaker::Report Report; ///< of its last bake
     bool HasWindows = false;         ///< that are entries: its own texels have no small shadows
+    /// The mean of what arrives at its middle, irradiance over pi, were nothing in the way.
+    float MiddleLight = 0.0f;
   };
   const std::vector<Entry>& GetEntries() const { return this->Entries; }
 
   /**
-   * How many of the entries are windows of others (penumbra::Receiver::WindowOf): the last ones.
+   * How many of the entries are parts of others, their windows (penumbra::Receiver::WindowOf) or
+   * other sides (penumbra::Receiver::OtherSideOf): the last ones.
    */
-  std::size_t CountWindows() const;
+  std::size_t CountParts() const;
 
   /**
    * What was done for an entry, and for the windows that it has.

@@ -62,7 +62,8 @@ bool vtkReceiverTable::Record::operator==(const Record& other) const
   return IsSame(this->Base, other.Base) && this->IsTriangle == other.IsTriangle &&
     this->IsHalf == other.IsHalf && this->IsWindow == other.IsWindow &&
     this->ProxyCentre == other.ProxyCentre && this->Place == other.Place &&
-    this->Ambient == other.Ambient && this->Reflectance == other.Reflectance;
+    this->Ambient == other.Ambient && this->Reflectance == other.Reflectance &&
+    this->SeenSide == other.SeenSide && this->MiddleLight == other.MiddleLight;
 }
 
 vtkReceiverTable::vtkReceiverTable() = default;
@@ -130,8 +131,8 @@ std::vector<glm::vec4> vtkReceiverTable::MakeRecords() const
     const float limit = record.IsHalf ? 1.0f : NoLimit;
     texels.emplace_back(glm::vec3(rest), record.IsWindow ? -limit : limit);
     texels.push_back(record.Place);
-    texels.emplace_back(record.Ambient, 0.0f);
-    texels.emplace_back(record.Reflectance, 0.0f);
+    texels.emplace_back(record.Ambient, record.SeenSide);
+    texels.emplace_back(record.Reflectance, record.MiddleLight);
     texels.emplace_back(0.0f);
     if (record.ProxyCentre)
     {

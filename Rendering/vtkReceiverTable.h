@@ -15,7 +15,8 @@
  * - the (u, v, h) of b itself, which rounding leaves; 1 for the lower left half of a parallelogram,
  *   else NoLimit, negative for windows of other receivers, which are preferred to these;
  * - the region of the prop's texture: where (u, v) = (0, 0) and how far it is to (1, 1);
- * - the ambient radiance; the reflectance;
+ * - the ambient radiance, and which side of the plane the texels are for: SeenSide of the record;
+ * - the reflectance, and the record's MiddleLight;
  * - (k, 1) for a plane that stands for a surface, which is projected onto it by k
  *   (penumbra::RegisteredProjection); else 0.
  */
@@ -58,6 +59,12 @@ public:
     glm::vec4 Place{ 0.0f };               ///< origin and size, in texture coordinates
     glm::vec3 Ambient{ 0.0f };
     glm::vec3 Reflectance{ 0.0f };
+    /// Where the texels are seen from: 1 for the side where h > 0, -1 for the other one, twice that
+    /// if another record has the other side's; 0: from everywhere.
+    float SeenSide = 0.0f;
+    /// The mean of what arrives at the receiver's middle, irradiance over pi, were nothing in the
+    /// way.
+    float MiddleLight = 0.0f;
 
     bool operator==(const Record& other) const;
   };

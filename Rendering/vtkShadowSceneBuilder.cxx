@@ -58,6 +58,10 @@ glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
 /// How far the points may be off by the rounding of their type, along each axis.
 glm::dvec3 GetRounding(vtkPoints* points)
 {
+  if (!points || points->GetNumberOfPoints() == 0)
+  {
+    return glm::dvec3(0.0);
+  }
   double bounds[6];
   points->GetBounds(bounds);
   const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(bounds[0], bounds[2], bounds[4])),
@@ -158,6 +162,22 @@ penumbra::PlanarRegions PlaceOnProxy(const penumbra::PolygonMesh& mesh,
   region.Regions.emplace_back().Base = proxy.Base;
   region.Problem = proxy.Problem;
   return region;
+}
+
+/// Adds the receiver, or one for each of both sides.
+void AddSides(penumbra::Receiver receiver, std::vector<penumbra::Receiver>& receivers)
+{
+  if (receiver.Settings.Side != penumbra::ReceiverSide::Both)
+  {
+    receivers.push_back(receiver);
+    return;
+  }
+  receiver.IsOneOfBoth = true;
+  receiver.Settings.Side = penumbra::ReceiverSide::Front;
+  receivers.push_back(receiver);
+  receiver.Settings.Side = penumbra::ReceiverSide::Back;
+  receiver.IsTurned = true;
+  receivers.push_back(receiver);
 }
 
 /// Only polygons: vertices and lines neither block nor receive, and strips become triangles.
@@ -481,6 +501,7 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
 {
   std::string problem = settings.FindProblem();
   penumbra::PlanarRegions found;
+  std::vector<std::optional<penumbra::ClosedSurface>> closed;
   penumbra::Receiver receiver;
   receiver.Surface = this->Scene.Surfaces.size();
   receiver.Settings = settings;
@@ -495,6 +516,10 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
       lit.Lights.insert(lit.Lights.end(), this->Scene.Lights.begin(), this->Scene.Lights.end());
       found = PlaceOnProxy(mesh, lit, receiver);
       this->HasProxy = true;
+    }
+    else if (!surface.IsTranslucent())
+    {
+      closed = penumbra::FindClosedSurfaces(mesh, found);
     }
     problem = found.Problem;
   }
@@ -516,7 +541,8 @@ std::string vtkShadowSceneBuilder::AddReceivers(vtkPolyData* polygons,
     receiver.Base = found.Regions[i].Base;
     receiver.IsTriangle = found.Regions[i].IsTriangle;
     receiver.Deviation = found.Regions[i].Deviation;
-    this->Scene.Receivers.push_back(receiver);
+    receiver.Enclosed = closed.empty() ? std::nullopt : closed[i];
+    AddSides(receiver, this->Scene.Receivers);
   }
   const double growth = this->Scene.ChooseTexels(first);
   if (growth > 1.0)

@@ -59,7 +59,7 @@ struct ShownProp
   bool IsMatte = false;
 
   std::size_t CountEntries() const { return this->Baked->GetEntries().size(); }
-  std::size_t CountReceivers() const { return this->CountEntries() - this->Baked->CountWindows(); }
+  std::size_t CountReceivers() const { return this->CountEntries() - this->Baked->CountParts(); }
   std::size_t GetBytes() const
   {
     return this->Baked->GetBytes() + (this->Factors ? this->Factors->GetBytes() : 0) +
@@ -395,8 +395,9 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   state->Push();
   this->Baker->SetScene(scene);
   std::vector<penumbra::ReceiverPlan> plans = this->PlanReceivers();
-  this->FitTextures(plans);
-  const std::vector<std::vector<std::size_t>> windows = this->AddWindows(plans);
+  std::vector<std::vector<std::size_t>> ofProps = this->AddOtherSides(plans);
+  this->FitTextures(ofProps, plans);
+  this->AddWindows(ofProps, plans);
   double windowTexels = 0.0;
   for (const penumbra::Receiver& receiver : scene.Receivers)
   {
@@ -407,9 +408,7 @@ void vtkSoftShadowPass::BakeReceivers(vtkOpenGLRenderWindow* window)
   bool isBaked = false;
   for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
   {
-    std::vector<std::size_t> receivers = own;
-    receivers.insert(receivers.end(), windows[place].begin(), windows[place].end());
-    ++place;
+    const std::vector<std::size_t>& receivers = ofProps[place++];
     ShownProp shown = TakeShown(before, prop);
     const int shading = this->GetShadingOf(prop);
     shown.Baked->SetKeptBytesPerTexel(keptBytes);
@@ -487,13 +486,37 @@ std::vector<penumbra::ReceiverPlan> vtkSoftShadowPass::PlanReceivers()
   return plans;
 }
 
-void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
+std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddOtherSides(
+  std::vector<penumbra::ReceiverPlan>& plans)
+{
+  penumbra::ShadowScene& scene = this->Impl->Scene;
+  std::vector<std::vector<std::size_t>> ofProps;
+  for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
+  {
+    ofProps.push_back(own);
+    for (const std::size_t i : own)
+    {
+      if (const auto other = penumbra::FindOtherSide(scene, i, plans[i]))
+      {
+        ofProps.back().push_back(scene.Receivers.size());
+        scene.Receivers.push_back(*other);
+        plans.push_back(this->Baker->Plan(scene.Receivers.size() - 1));
+      }
+    }
+  }
+  return ofProps;
+}
+
+void vtkSoftShadowPass::FitTextures(
+  const std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans)
 {
   std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
   std::vector<penumbra::TextureNeed> asked;
-  for (const auto& [prop, indices] : this->Impl->Collector->GetReceiverProps())
+  for (std::size_t p = 0; p < ofProps.size(); ++p)
   {
-    const bool showsRadiance = this->GetShadingOf(prop) == RADIANCE;
+    const std::vector<std::size_t>& indices = ofProps[p];
+    const bool showsRadiance =
+      this->GetShadingOf(this->Impl->Collector->GetReceiverProps()[p].Prop) == RADIANCE;
     penumbra::TextureNeed need;
     bool hasTexture = showsRadiance;
     for (const std::size_t i : indices)
@@ -513,8 +536,7 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
     this->Impl->Budget.Fit(asked, MiB * this->MaximumTextureMemory);
   for (std::size_t p = 0; p < fitted.size(); ++p)
   {
-    const std::vector<std::size_t>& indices =
-      this->Impl->Collector->GetReceiverProps()[p].Receivers;
+    const std::vector<std::size_t>& indices = ofProps[p];
     for (std::size_t r = 0; r < fitted[p].Receivers.size(); ++r)
     {
       const penumbra::TexelNeed& need = fitted[p].Receivers[r];
@@ -535,16 +557,15 @@ void vtkSoftShadowPass::FitTextures(std::vector<penumbra::ReceiverPlan>& plans)
   this->Impl->BudgetWarning = problem;
 }
 
-std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddWindows(
-  std::vector<penumbra::ReceiverPlan>& plans)
+void vtkSoftShadowPass::AddWindows(
+  std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans)
 {
   // Half of what memory is left is theirs.
   std::vector<penumbra::Receiver>& receivers = this->Impl->Scene.Receivers;
   double left = 0.5 * this->Impl->Budget.GetBytesLeft() / penumbra::ShadowScene::BytesPerTexel;
-  std::vector<std::vector<std::size_t>> added;
-  for (const auto& [prop, own] : this->Impl->Collector->GetReceiverProps())
+  for (std::vector<std::size_t>& ofProp : ofProps)
   {
-    added.emplace_back();
+    const std::vector<std::size_t> own = ofProp;
     for (const std::size_t i : own)
     {
       const std::vector<penumbra::FineWindow> windows =
@@ -559,12 +580,11 @@ std::vector<std::vector<std::size_t>> vtkSoftShadowPass::AddWindows(
         receiver.WindowOf = i;
         left -= window.Fine.GetArea();
         plans.push_back(this->Baker->PlanWindow(receiver, plans[i]));
-        added.back().push_back(receivers.size());
+        ofProp.push_back(receivers.size());
         receivers.push_back(receiver);
       }
     }
   }
-  return added;
 }
 
 void vtkSoftShadowPass::ChooseShading()
@@ -700,7 +720,11 @@ vtkSmartPointer<vtkFloatArray> vtkSoftShadowPass::GetTexels(int receiver)
       auto array = vtkSmartPointer<vtkFloatArray>::New();
       array->SetNumberOfComponents(4);
       array->SetNumberOfTuples(static_cast<vtkIdType>(texels.size()));
-      std::copy_n(&texels.front().x, 4 * texels.size(), array->GetPointer(0));
+      const penumbra::Receiver& settings = shown.Baked->GetEntries()[index].Settings;
+      for (std::size_t i = 0; i < texels.size(); ++i)
+      {
+        array->SetTypedTuple(static_cast<vtkIdType>(i), &texels[settings.GetTexelOfData(i)].x);
+      }
       return array;
     }
     index -= shown.CountReceivers();

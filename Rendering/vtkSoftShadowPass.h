@@ -229,9 +229,14 @@ private:
   void UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   std::vector<penumbra::ReceiverPlan> PlanReceivers();
   /// Gives receivers larger texels where MaximumTextureMemory asks for it.
-  void FitTextures(std::vector<penumbra::ReceiverPlan>& plans);
-  /// Adds windows of receivers as receivers, with their plans: their indices, prop by prop.
-  std::vector<std::vector<std::size_t>> AddWindows(std::vector<penumbra::ReceiverPlan>& plans);
+  void FitTextures(const std::vector<std::vector<std::size_t>>& ofProps,
+    std::vector<penumbra::ReceiverPlan>& plans);
+  /// Adds the other sides of receivers as receivers, with their plans. The answer is each prop's
+  /// receivers, these last.
+  std::vector<std::vector<std::size_t>> AddOtherSides(std::vector<penumbra::ReceiverPlan>& plans);
+  /// Adds windows of receivers as receivers of their props, with their plans.
+  void AddWindows(
+    std::vector<std::vector<std::size_t>>& ofProps, std::vector<penumbra::ReceiverPlan>& plans);
   void BakeReceivers(vtkOpenGLRenderWindow* window);
   /// Bakes what is a draft as it is to be: in a PROGRESSIVE frame, as much as there is time for.
   void FinishDrafts();

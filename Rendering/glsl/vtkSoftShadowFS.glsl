@@ -16,6 +16,16 @@
 uniform sampler2D penumbraTexture; // for shadows, vtkShadowFactors; for radiance, the irradiance over pi
 uniform float penumbraScale;       // of the factors
 
+// What is shown at a fragment, and its receiver's settings.
+struct PenumbraTexel
+{
+  vec3 value; // of the texture
+  vec3 ambient;
+  vec3 reflectance;
+  float middleLight; // vtkReceiverTable's MiddleLight
+  bool isSeen;       // from the side that the texture is for: from the other one, the ambient alone arrives
+};
+
 #ifdef PENUMBRA_SEVERAL
 
 uniform samplerBuffer penumbraRecords; // vtkReceiverTable, which says what is in it
@@ -26,9 +36,9 @@ uniform vec3 penumbraGridCells;        // of the outermost grid
 uniform mat3 penumbraFromView;         // directions of the view, in the table's frame
 uniform vec3 penumbraEye;              // where the view's origin is in its frame
 uniform vec3 penumbraEyeRest;          // what single precision leaves of that
+uniform vec4 penumbraSight;            // where the camera looks, in the table's frame; w: 1 if rays are parallel
 #ifndef PENUMBRA_VIEW
 uniform mat4 penumbraToView;           // gl_FragCoord to the view, homogeneous
-uniform vec4 penumbraSight;            // where the camera looks, in the table's frame; w: 1 if rays are parallel
 #endif
 
 const uint PenumbraList = 0x40000000u; // words of penumbra::ReceiverGrid
@@ -63,7 +73,11 @@ struct PenumbraPlace
   vec3 uvh;
   float limit;   // what u + v may be at most: 1 for half of a slot
   float distance;
+  bool isSeen;   // from the side that its texels are for
 };
+
+// Larger than distances are: of a receiver whose other side has texels of its own.
+const float PenumbraHidden = 1.0e30;
 
 PenumbraPlace penumbraReadReceiver(int first, vec3 fromEye)
 {
@@ -72,7 +86,8 @@ PenumbraPlace penumbraReadReceiver(int first, vec3 fromEye)
   vec4 h = texelFetch(penumbraRecords, first + 2);
   vec4 rest = texelFetch(penumbraRecords, first + 3);
   // The eye relative to the receiver's corner comes first: where they are near each other, nothing is lost.
-  vec3 place = fromEye + ((penumbraEye - vec3(u.w, v.w, h.w)) + penumbraEyeRest);
+  vec3 eye = (penumbraEye - vec3(u.w, v.w, h.w)) + penumbraEyeRest;
+  vec3 place = fromEye + eye;
   PenumbraPlace receiver;
   receiver.toU = u.xyz;
   receiver.toV = v.xyz;
@@ -105,11 +120,16 @@ PenumbraPlace penumbraReadReceiver(int first, vec3 fromEye)
   vec2 outside = abs(receiver.uvh.xy - 0.5);
   float beyond = max(max(outside.x, outside.y), receiver.uvh.x + receiver.uvh.y - receiver.limit + 0.5);
   receiver.distance = max(beyond, 0.5) + 4.0 * abs(receiver.uvh.z) - (rest.w < 0.0 ? 1.0e-3 : 0.0);
+  // Where the eye is decides, not the fragment's normal: data may have it either way.
+  float height = penumbraSight.w > 0.0 ? -dot(h.xyz, penumbraSight.xyz) : dot(h.xyz, eye) + rest.z;
+  float side = texelFetch(penumbraRecords, first + 5).w;
+  receiver.isSeen = side * height >= 0.0;
+  receiver.distance += abs(side) > 1.5 && !receiver.isSeen ? PenumbraHidden : 0.0;
   return receiver;
 }
 
 // The texel at the fragment, and its receiver's settings: what is not used costs nothing.
-vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
+PenumbraTexel penumbraLookUp(vec4 position)
 {
 #ifdef PENUMBRA_VIEW
   vec3 inView = position.xyz;
@@ -138,17 +158,22 @@ vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
     }
     word = texelFetch(penumbraGrid, ++at).r;
   }
-  ambient = texelFetch(penumbraRecords, first + 5).rgb;
-  reflectance = texelFetch(penumbraRecords, first + 6).rgb;
+  PenumbraTexel texel;
+  texel.ambient = texelFetch(penumbraRecords, first + 5).rgb;
+  vec4 reflectance = texelFetch(penumbraRecords, first + 6);
+  texel.reflectance = reflectance.rgb;
+  texel.middleLight = reflectance.a;
+  texel.isSeen = nearest.isSeen;
   vec4 place = texelFetch(penumbraRecords, first + 4);
   vec2 uv = clamp(nearest.uvh.xy, 0.0, 1.0);
   uv -= 0.5 * max(uv.x + uv.y - nearest.limit, 0.0); // it stays within [0, 1]^2
   // How (u, v) changes from pixel to pixel is asked of the receiver of this pixel: its neighbours may have found others.
   vec3 right = penumbraFromView * dFdx(inView);
   vec3 up = penumbraFromView * dFdy(inView);
-  return textureGrad(penumbraTexture, place.xy + uv * place.zw,
+  texel.value = textureGrad(penumbraTexture, place.xy + uv * place.zw,
     place.zw * vec2(dot(nearest.toU, right), dot(nearest.toV, right)),
     place.zw * vec2(dot(nearest.toU, up), dot(nearest.toV, up))).rgb;
+  return texel;
 }
 
 #else
@@ -161,38 +186,45 @@ vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
 uniform mat4 PENUMBRA_MAP; // (position, 1) to (u q, v q, h q, q), with h = 0 on the plane
 uniform vec3 penumbraAmbient;
 uniform vec3 penumbraReflectance;
+uniform float penumbraMiddleLight;
+uniform bool penumbraIsSeen; // from the side that its texels are for
 #ifdef PENUMBRA_VARYING
 in vec2 penumbraUVVSOutput;
 #endif
 
 // The texel at the fragment, and its receiver's settings. The only receiver fills its texture, which clamps to its edge.
-vec3 penumbraLookUp(vec4 position, out vec3 ambient, out vec3 reflectance)
+PenumbraTexel penumbraLookUp(vec4 position)
 {
-  ambient = penumbraAmbient;
-  reflectance = penumbraReflectance;
 #if defined(PENUMBRA_VARYING)
-  return texture(penumbraTexture, penumbraUVVSOutput).rgb;
+  vec2 uv = penumbraUVVSOutput;
 #elif defined(PENUMBRA_VIEW) && !defined(PENUMBRA_PROXY)
-  return texture(penumbraTexture, (PENUMBRA_MAP * position).xy).rgb; // q = 1
+  vec2 uv = (PENUMBRA_MAP * position).xy; // q = 1
 #else
   vec4 uvhq = PENUMBRA_MAP * position;
-  return texture(penumbraTexture, uvhq.xy / uvhq.w).rgb;
+  vec2 uv = uvhq.xy / uvhq.w;
 #endif
+  return PenumbraTexel(texture(penumbraTexture, uv).rgb, penumbraAmbient, penumbraReflectance, penumbraMiddleLight,
+    penumbraIsSeen);
 }
 
 #endif
 
-// The factor of the diffuse shade.
+// The factor of the diffuse shade. Seen from the other side, all of the light that the receiver's middle would get is
+// blocked, as vtkShadowFactorsFS.glsl has it.
 vec3 penumbraShadow(vec4 position)
 {
-  vec3 ambient, reflectance;
-  return penumbraScale * penumbraLookUp(position, ambient, reflectance);
+  PenumbraTexel texel = penumbraLookUp(position);
+  if (texel.isSeen)
+  {
+    return penumbraScale * texel.value;
+  }
+  float unblocked = texel.middleLight + dot(texel.ambient, vec3(1.0 / 3.0));
+  return unblocked > 0.0 ? texel.ambient / unblocked : vec3(1.0);
 }
 
 // H&H 1997, eq. 1.
 vec3 penumbraRadiance(vec4 position)
 {
-  vec3 ambient, reflectance;
-  vec3 arriving = penumbraLookUp(position, ambient, reflectance);
-  return reflectance * (ambient + arriving);
+  PenumbraTexel texel = penumbraLookUp(position);
+  return texel.reflectance * (texel.ambient + (texel.isSeen ? texel.value : vec3(0.0)));
 }

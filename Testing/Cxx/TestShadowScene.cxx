@@ -459,7 +459,8 @@ TEST(ReceiverSettings, NameBadChoicesAndColours)
   ExpectProblems<S>({
     { [](S& s) { s.SamplingPattern = -1; }, "SamplingPattern", "-1", "0 to 4" },
     { [](S& s) { s.SamplingPattern = 5; }, "SamplingPattern", "5", "0 to 4" },
-    { [](S& s) { s.Side = static_cast<ReceiverSide>(3); }, "Side", "3", "0 (Auto), 1 (Front)" },
+    { [](S& s) { s.Side = static_cast<ReceiverSide>(4); }, "Side", "4",
+      "0 (Auto), 1 (Front), 2 (Back) or 3 (Both)" },
     { [](S& s) { s.Side = static_cast<ReceiverSide>(-1); }, "Side", "-1", "0 (Auto), 1 (Front)" },
     { [](S& s) { s.Reflectance.y = 1.5; }, "Reflectance", "(1, 1.5, 1)", share },
     { [](S& s) { s.Reflectance.z = -0.5; }, "Reflectance", "(1, 1, -0.5)", share },

@@ -192,7 +192,7 @@ penumbra::ReceiverSettings MakeReceiverSettings(ByteReader& bytes)
   settings.TexelSize = bytes.Number();
   settings.LightSamples = 1 + bytes.Byte();
   settings.Supersampling = 1 << bytes.Below(4);
-  settings.Side = static_cast<penumbra::ReceiverSide>(bytes.Below(4));
+  settings.Side = static_cast<penumbra::ReceiverSide>(bytes.Below(5));
   settings.Reflectance.x = bytes.Number();
   settings.AmbientRadiance.y = bytes.Number();
   return settings;
