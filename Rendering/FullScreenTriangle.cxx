@@ -4,6 +4,7 @@
 
 #include "FullScreenTriangle.h"
 
+#include "OpenGLErrors.h"
 #include "vtkFullScreenTriangleVS.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
@@ -46,7 +47,9 @@ void DrawFullScreenTriangle()
   GLuint vertexArray = 0; // core profiles draw nothing without one
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
+  ForgetOpenGLErrors();
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  NoteDrawingError();
   glBindVertexArray(0);
   glDeleteVertexArrays(1, &vertexArray);
 }

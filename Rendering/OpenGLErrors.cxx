@@ -8,6 +8,8 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkTextureObject.h"
 
+#include <utility>
+
 namespace penumbra
 {
 
@@ -30,6 +32,9 @@ public:
 private:
   vtkTypeBool Before;
 };
+
+/// Of the thread's contexts, as OpenGL's own errors are.
+thread_local bool HasRefusedToDraw = false;
 
 /// Whether the texture has that width.
 bool HasWidth(vtkTextureObject* texture, int width)
@@ -63,6 +68,16 @@ bool HasOpenGLError()
   const bool hasError = glGetError() != GL_NO_ERROR;
   ForgetOpenGLErrors();
   return hasError;
+}
+
+void NoteDrawingError()
+{
+  HasRefusedToDraw = HasOpenGLError() || HasRefusedToDraw;
+}
+
+bool TakeDrawingError()
+{
+  return std::exchange(HasRefusedToDraw, false);
 }
 
 bool AllocateTexture(vtkTextureObject* texture, vtkOpenGLRenderWindow* window,

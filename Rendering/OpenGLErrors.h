@@ -29,6 +29,16 @@ bool HasOpenGLError();
 
 ///@{
 /**
+ * Whether OpenGL refused to draw: noted after a draw call, before which errors of others are to be
+ * forgotten, since VTK's state, if VTK was built to report errors, takes them away; and asked for,
+ * once, where a stage is done. An incomplete framebuffer is such an error.
+ */
+void NoteDrawingError();
+bool TakeDrawingError();
+///@}
+
+///@{
+/**
  * Make room for a texture, of a VTK type such as VTK_FLOAT; or make a texture of what a buffer
  * holds, four floats or an unsigned integer (VTK_UNSIGNED_INT) a texel. False if OpenGL refuses.
  * VTK, if it was built to report errors, reports this one and forgets it, but says that all went

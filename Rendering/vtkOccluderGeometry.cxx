@@ -69,8 +69,10 @@ void vtkOccluderGeometry::Draw(std::size_t set, vtkShaderProgram* program, int i
     program, this->Vertices, "vertexUVHT", 0, sizeof(glm::vec4), VTK_FLOAT, 4, false);
   this->Indices->Bind();
   // OpenGL takes the place in the buffer, in bytes, as a pointer.
+  penumbra::ForgetOpenGLErrors();
   glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(range.Count), GL_UNSIGNED_INT,
     reinterpret_cast<const void*>(range.First * sizeof(GLuint)), instances);
+  penumbra::NoteDrawingError();
   this->Indices->Release();
   arrays->ReleaseGraphicsResources();
 }

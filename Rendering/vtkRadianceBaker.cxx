@@ -224,11 +224,22 @@ vtkRadianceBaker::Report vtkRadianceBaker::BakeRectangle(const penumbra::Receive
   this->Occluders.SetReceiver(receiver, plan.Frame);
   vtkOpenGLState* state = window->GetState();
   state->Push();
-  job.Result.IsComplete = this->BakeReceiver(job, texture, region);
+  job.Result.IsComplete = this->BakeReceiver(job, texture, region) && this->HasDrawn();
   glFinish();
   state->Pop();
   job.Result.Seconds = vtkTimerLog::GetUniversalTime() - start;
   return job.Result;
+}
+
+bool vtkRadianceBaker::HasDrawn()
+{
+  if (penumbra::TakeDrawingError())
+  {
+    vtkErrorMacro("OpenGL refused to draw a part of a receiver. There is no bake; use a "
+                  "larger TexelSize or fewer LightSamples, or update the OpenGL driver.");
+    return false;
+  }
+  return true;
 }
 
 bool vtkRadianceBaker::BakeReceiver(
@@ -620,7 +631,7 @@ penumbra::DrawProgress vtkRadianceBaker::DrawMasksUntil(double until,
     progress = this->DrawLightUntil(until, job, light, masks.Lights[light]);
   }
   state->Pop();
-  return progress;
+  return this->HasDrawn() ? progress : penumbra::DrawProgress::Failed;
 }
 
 penumbra::DrawProgress vtkRadianceBaker::DrawLightUntil(
@@ -805,8 +816,13 @@ bool vtkRadianceBaker::BakeFromKept(
     kept = KeptLight();
     return false;
   }
-  kept.Stale = {};
   this->Resolver->ResolveCounts(job.Target, job.Region, shaded, true);
+  if (!this->HasDrawn())
+  {
+    kept = KeptLight();
+    return false;
+  }
+  kept.Stale = {};
   for (const vtkSmartPointer<vtkVisibilityShare>& share : kept.Shares.Shares)
   {
     if (share)

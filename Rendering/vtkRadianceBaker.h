@@ -171,6 +171,8 @@ private:
   Report BakeRectangle(const penumbra::ReceiverPlan& plan, const penumbra::Receiver& receiver,
     std::size_t index, vtkOpenGLRenderWindow* window, vtkRadianceTexture* texture,
     const vtkRadianceTexture::Region& region, const Part& part);
+  /// Whether OpenGL has drawn all that it was told to since this was last asked; says so if not.
+  bool HasDrawn();
   bool BakeReceiver(Job& job, vtkRadianceTexture* texture, const vtkRadianceTexture::Region& place);
   ///@{
   /// What windows give in place of the receiver's own texels.

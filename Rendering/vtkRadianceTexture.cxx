@@ -85,6 +85,13 @@ bool vtkRadianceTexture::Allocate(vtkOpenGLRenderWindow* window,
   }
   this->HasVariance = withVariance;
   this->Clear({ glm::ivec2(0), size }, penumbra::WholeRectangle(size));
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  {
+    vtkErrorMacro("OpenGL does not draw into textures of floats. There is no bake; update the "
+                  "OpenGL driver.");
+    this->ReleaseGraphicsResources();
+    return false;
+  }
   return true;
 }
 

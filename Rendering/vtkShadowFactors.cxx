@@ -90,6 +90,13 @@ bool vtkShadowFactors::Make(vtkOpenGLRenderWindow* window, vtkRadianceTexture* r
       }
     }
   }
+  if (penumbra::TakeDrawingError())
+  {
+    vtkErrorMacro("OpenGL refused to draw factors of radiance. No shadow is shown; use a larger "
+                  "TexelSize, or update the OpenGL driver.");
+    this->ReleaseGraphicsResources();
+    return false;
+  }
   if (!radiance->GenerateMipmaps(this->Texture))
   {
     this->ReleaseGraphicsResources();

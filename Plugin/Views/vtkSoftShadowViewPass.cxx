@@ -9,6 +9,7 @@
 #include "vtkPVSession.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 
@@ -119,7 +120,9 @@ void vtkSoftShadowViewPass::OnTimer(vtkObject* caller, unsigned long /*event*/, 
   {
     return; // a still frame will come after the interaction
   }
-  vtkPVSession* session = ViewParts::GetSessionOf(this->View);
+  // Events that are handled while the frame is drawn may close the view, and end its session.
+  const vtkSmartPointer<vtkSoftShadowViewPass> self = this;
+  const vtkSmartPointer<vtkPVSession> session = ViewParts::GetSessionOf(this->View);
   if (session->GetPendingProgress())
   {
     this->StartTimer();

@@ -24,7 +24,7 @@ namespace
 struct State
 {
   OpenGLRefusal::Choice Choice;
-  std::array<int, OpenGLCall::Shader + 1> Calls{};
+  std::array<int, OpenGLCall::Draw + 1> Calls{};
   int Refused = 0;
   bool IsLost = false;
 };
@@ -43,23 +43,27 @@ bool IsRefused(OpenGLCall call)
   return isRefused;
 }
 
-/// No size and no target: OpenGL raises an error.
+/// No size, no target and nothing to draw: OpenGL raises an error.
 constexpr GLsizei NoSize = -1;
 constexpr GLenum NoTarget = GL_NONE;
+constexpr GLenum NoMode = GL_TEXTURE;
 
 using TexImage2DFunction = void(GLAPIENTRY*)(
   GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void*);
 using GetErrorFunction = GLenum(GLAPIENTRY*)();
+using DrawArraysFunction = void(GLAPIENTRY*)(GLenum, GLint, GLsizei);
 
 struct Functions
 {
   TexImage2DFunction TexImage2D;
   GetErrorFunction GetError;
+  DrawArraysFunction DrawArrays;
   PFNGLTEXIMAGE3DPROC TexImage3D;
   PFNGLBUFFERDATAPROC BufferData;
   PFNGLTEXBUFFERPROC TexBuffer;
   PFNGLGENERATEMIPMAPPROC GenerateMipmap;
   PFNGLCOMPILESHADERPROC CompileShader;
+  PFNGLDRAWELEMENTSINSTANCEDPROC DrawElementsInstanced;
 };
 
 Functions Own;
@@ -122,6 +126,19 @@ void GLAPIENTRY CompileShader(GLuint shader)
   }
 }
 
+void GLAPIENTRY DrawArrays(GLenum mode, GLint first, GLsizei count)
+{
+  const bool isRefused = IsRefused({ OpenGLCall::Draw, 0, 0, 0, {}, 0 });
+  Own.DrawArrays(isRefused ? NoMode : mode, first, count);
+}
+
+void GLAPIENTRY DrawElementsInstanced(
+  GLenum mode, GLsizei count, GLenum type, const void* indices, GLsizei instances)
+{
+  const bool isRefused = IsRefused({ OpenGLCall::Draw, 0, 0, 0, {}, 0 });
+  Own.DrawElementsInstanced(isRefused ? NoMode : mode, count, type, indices, instances);
+}
+
 } // namespace
 
 #if PENUMBRA_OPENGL_BY_GLAD
@@ -131,11 +148,14 @@ void FindOldFunctions()
 {
   Own.TexImage2D = LOADED(TexImage2D);
   Own.GetError = LOADED(GetError);
+  Own.DrawArrays = LOADED(DrawArrays);
 }
-void SetOldFunctions(TexImage2DFunction texImage2D, GetErrorFunction getError)
+void SetOldFunctions(
+  TexImage2DFunction texImage2D, GetErrorFunction getError, DrawArraysFunction drawArrays)
 {
   LOADED(TexImage2D) = texImage2D;
   LOADED(GetError) = getError;
+  LOADED(DrawArrays) = drawArrays;
 }
 } // namespace
 #else
@@ -147,10 +167,16 @@ void FindOldFunctions()
   static const auto texImage2D =
     reinterpret_cast<TexImage2DFunction>(dlsym(RTLD_NEXT, "glTexImage2D"));
   static const auto getError = reinterpret_cast<GetErrorFunction>(dlsym(RTLD_NEXT, "glGetError"));
+  static const auto drawArrays =
+    reinterpret_cast<DrawArraysFunction>(dlsym(RTLD_NEXT, "glDrawArrays"));
   Own.TexImage2D = texImage2D;
   Own.GetError = getError;
+  Own.DrawArrays = drawArrays;
 }
-void SetOldFunctions(TexImage2DFunction /*texImage2D*/, GetErrorFunction /*getError*/) {}
+void SetOldFunctions(TexImage2DFunction /*texImage2D*/, GetErrorFunction /*getError*/,
+  DrawArraysFunction /*drawArrays*/)
+{
+}
 } // namespace
 
 extern "C" void GLAPIENTRY glTexImage2D(GLenum target, GLint level, GLint internalFormat,
@@ -165,6 +191,12 @@ extern "C" GLenum GLAPIENTRY glGetError()
   FindOldFunctions();
   return GetError();
 }
+
+extern "C" void GLAPIENTRY glDrawArrays(GLenum mode, GLint first, GLsizei count)
+{
+  FindOldFunctions();
+  DrawArrays(mode, first, count);
+}
 #endif
 
 OpenGLRefusal::OpenGLRefusal(const Choice& choice)
@@ -175,23 +207,26 @@ OpenGLRefusal::OpenGLRefusal(const Choice& choice)
   Own.TexBuffer = LOADED(TexBuffer);
   Own.GenerateMipmap = LOADED(GenerateMipmap);
   Own.CompileShader = LOADED(CompileShader);
+  Own.DrawElementsInstanced = LOADED(DrawElementsInstanced);
   Now = { choice, {}, 0, false };
-  SetOldFunctions(TexImage2D, GetError);
+  SetOldFunctions(TexImage2D, GetError, DrawArrays);
   LOADED(TexImage3D) = TexImage3D;
   LOADED(BufferData) = BufferData;
   LOADED(TexBuffer) = TexBuffer;
   LOADED(GenerateMipmap) = GenerateMipmap;
   LOADED(CompileShader) = CompileShader;
+  LOADED(DrawElementsInstanced) = DrawElementsInstanced;
 }
 
 OpenGLRefusal::~OpenGLRefusal()
 {
-  SetOldFunctions(Own.TexImage2D, Own.GetError);
+  SetOldFunctions(Own.TexImage2D, Own.GetError, Own.DrawArrays);
   LOADED(TexImage3D) = Own.TexImage3D;
   LOADED(BufferData) = Own.BufferData;
   LOADED(TexBuffer) = Own.TexBuffer;
   LOADED(GenerateMipmap) = Own.GenerateMipmap;
   LOADED(CompileShader) = Own.CompileShader;
+  LOADED(DrawElementsInstanced) = Own.DrawElementsInstanced;
   Now = {};
 }
 
@@ -203,12 +238,12 @@ int OpenGLRefusal::GetCount() const
 LostContext::LostContext()
 {
   FindOldFunctions();
-  SetOldFunctions(Own.TexImage2D, GetError);
+  SetOldFunctions(Own.TexImage2D, GetError, Own.DrawArrays);
   Now.IsLost = true;
 }
 
 LostContext::~LostContext()
 {
-  SetOldFunctions(Own.TexImage2D, Own.GetError);
+  SetOldFunctions(Own.TexImage2D, Own.GetError, Own.DrawArrays);
   Now.IsLost = false;
 }

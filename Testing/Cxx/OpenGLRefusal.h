@@ -19,7 +19,8 @@ struct OpenGLCall
     Buffer,        ///< glBufferData
     TextureBuffer, ///< glTexBuffer
     Mipmaps,       ///< glGenerateMipmap
-    Shader         ///< glCompileShader
+    Shader,        ///< glCompileShader
+    Draw           ///< glDrawArrays or glDrawElementsInstanced
   };
 
   Kind What = Texture;

@@ -346,6 +346,12 @@ TEST(StabilityFault, AnyTextureBufferRefused)
   ExpectRefusalsAreReported(OpenGLCall::TextureBuffer, "texture buffers", 1);
 }
 
+TEST(StabilityFault, AnyDrawRefused)
+{
+  // Masks, their shares, what is unoccluded and what is not.
+  ExpectRefusalsAreReported(OpenGLCall::Draw, "draws", 4);
+}
+
 // Shaders are compiled once for a window: each bake is the first one of its own.
 TEST(StabilityFault, AnyShaderRefused)
 {
@@ -460,8 +466,7 @@ TEST(StabilityFault, BatchesSurviveRefusals)
   for (const OpenGLCall::Kind kind :
     { OpenGLCall::Texture, OpenGLCall::Buffer, OpenGLCall::TextureBuffer, OpenGLCall::Mipmaps })
   {
-    constexpr int MostCalls = 3; // of a kind: they recur in each batch
-    for (int refused = 0; refused < MostCalls; ++refused)
+    for (int refused = 0;; ++refused)
     {
       FloorScene scene;
       DrawDraft(scene);
@@ -481,6 +486,7 @@ TEST(StabilityFault, BatchesSurviveRefusals)
         << "kind " << kind << ", after call " << refused;
       if (count == 0)
       {
+        std::cout << refused << " calls of kind " << kind << ", each refused once\n";
         break;
       }
     }
