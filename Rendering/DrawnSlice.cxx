@@ -14,6 +14,7 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -67,6 +68,25 @@ vtkSmartPointer<vtkPolyData> MakeSlice(vtkImageSliceMapper* mapper)
   return MakeRectangle(mapper->GetInput(), extent);
 }
 
+/// The slice that the mapper of ParaView's Slice representation draws: its data are the slice
+/// alone.
+vtkSmartPointer<vtkPolyData> MakeParaViewSlice(vtkMapper* mapper)
+{
+  if (!mapper || !mapper->IsA("vtkPVImageSliceMapper")) // of a library that plain VTK lacks
+  {
+    return nullptr;
+  }
+  mapper->Update();
+  auto* image = vtkImageData::SafeDownCast(mapper->GetInputDataObject(0, 0));
+  if (!image || image->GetDataDimension() != 2)
+  {
+    return nullptr;
+  }
+  SliceExtent extent;
+  std::copy_n(image->GetExtent(), extent.size(), extent.begin());
+  return MakeRectangle(image, extent);
+}
+
 /// A rectangle and how it is drawn.
 struct Slice
 {
@@ -84,6 +104,11 @@ Slice FindSlice(vtkProp* prop)
     {
       slice = { MakeSlice(mapper), mapper, image->GetProperty()->GetOpacity() };
     }
+  }
+  else if (auto* actor = vtkActor::SafeDownCast(prop))
+  {
+    vtkMapper* mapper = actor->vtkActor::GetMapper();
+    slice = { MakeParaViewSlice(mapper), mapper, actor->GetProperty()->GetOpacity() };
   }
   return slice;
 }

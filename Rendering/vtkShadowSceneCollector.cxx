@@ -145,12 +145,20 @@ bool AsksForBounds(vtkRenderer* renderer)
   return false;
 }
 
+/// The part that an actor, which stands for a slice of an image, is.
+VisitedPart MakeSlicePart(vtkActor* slice, vtkMatrix4x4* matrix)
+{
+  return { slice, IsDrawnAsSurface(slice), IsDrawnAsSurface(slice), matrix,
+    slice->GetMapper()->GetInputDataObject(0, 0), nullptr };
+}
+
 /// Calls visit(prop, part) if the actor, the prop itself or a part of it, is a visible one of
-/// polygonal data. False if it is drawn by a level of detail while its data themselves are not at
-/// hand. `areUpToDate` tells that the mapper that draws it has been asked for its bounds.
+/// polygonal data or a slice. False if it is drawn by a level of detail while its data themselves
+/// are not at hand. `areUpToDate` tells that the mapper that draws it has been asked for its
+/// bounds.
 template <typename Visitor>
-bool VisitActor(
-  vtkProp* prop, vtkActor* actor, vtkMatrix4x4* matrix, bool areUpToDate, Visitor&& visit)
+bool VisitActor(vtkProp* prop, vtkActor* actor, vtkMatrix4x4* matrix, bool areUpToDate,
+  penumbra::SliceActors& slices, Visitor&& visit)
 {
   vtkMapper* mapper = GetFullMapper(actor);
   if (!mapper || !actor->GetVisibility() || IsMark(actor) || vtkSkybox::SafeDownCast(actor))
@@ -163,6 +171,11 @@ bool VisitActor(
     visit(prop,
       VisitedPart{ actor, IsDrawnAsSurface(actor), IsDrawnAsSolid(actor), matrix, data,
         GetAttributes(mapper) });
+    return true;
+  }
+  if (vtkActor* slice = slices.Find(actor))
+  {
+    visit(prop, MakeSlicePart(slice, matrix));
     return true;
   }
   return isDrawnInFull || !GetMappedData(actor->GetMapper());
@@ -188,7 +201,7 @@ bool VisitParts(vtkRenderer* renderer, penumbra::SliceActors& slices, Visitor&& 
     if (auto* actor = vtkActor::SafeDownCast(prop)) // its one path would be made anew each time
     {
       areAllAtHand =
-        VisitActor(prop, actor, actor->GetMatrix(), areUpToDate, visit) && areAllAtHand;
+        VisitActor(prop, actor, actor->GetMatrix(), areUpToDate, slices, visit) && areAllAtHand;
       continue;
     }
     prop->InitPathTraversal();
@@ -198,13 +211,12 @@ bool VisitParts(vtkRenderer* renderer, penumbra::SliceActors& slices, Visitor&& 
       vtkProp* drawn = node->GetViewProp();
       if (vtkActor* slice = drawn->GetVisibility() ? slices.Find(drawn) : nullptr)
       {
-        visit(prop,
-          VisitedPart{ slice, IsDrawnAsSurface(slice), IsDrawnAsSurface(slice), node->GetMatrix(),
-            slice->GetMapper()->GetInputDataObject(0, 0), nullptr });
+        visit(prop, MakeSlicePart(slice, node->GetMatrix()));
       }
       else if (auto* actor = vtkActor::SafeDownCast(drawn))
       {
-        areAllAtHand = VisitActor(prop, actor, node->GetMatrix(), false, visit) && areAllAtHand;
+        areAllAtHand =
+          VisitActor(prop, actor, node->GetMatrix(), false, slices, visit) && areAllAtHand;
       }
     }
   }

@@ -5,7 +5,7 @@ the same texels, bit for bit. What has no surface is said, once."""
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkAMRBox, vtkOverlappingAMR, vtkUniformGrid
 
-from penumbra_testing import Checks, Messages, bake, cell_array, load_plugin, texels_of_view
+from penumbra_testing import Checks, Messages, bake, cell_array, load_plugin, texels_of_view, translate
 
 checks = Checks()
 
@@ -159,6 +159,41 @@ def check_types():
         checks.at_least((cell_array(grid, "Visibility") < 1).sum(), 200, f"shadowed texels of {name}")
 
 
+def check_slice_representation():
+    """The Slice representation of an image casts as a plane at its place does."""
+    image = simple.Wavelet(WholeExtent=[-3, 5, -2, 4, -1, 3])
+    planes = {
+        "XY Plane": ([-3, -2, 1], [5, -2, 1], [-3, 4, 1]),
+        "XZ Plane": ([-3, 2, -1], [5, 2, -1], [-3, 2, 3]),
+        "YZ Plane": ([2, -2, -1], [2, 4, -1], [2, -2, 3]),
+    }
+    up, scale = [0, 0, 2], [0.5, 0.5, 0.5]
+    for direction, slice_number in (("XY Plane", 2), ("XZ Plane", 4), ("YZ Plane", 5)):
+        view = simple.CreateView("RenderView")
+        simple.Show(make_floor(), view)
+        simple.Show(make_light(), view)
+        display = simple.Show(image, view)
+        display.Representation = "Slice"
+        display.SliceMode, display.Slice = direction, slice_number
+        translate(display, up)
+        display.Scale = scale
+        simple.Render(view)
+        shown = texels_of_view(view)[0]
+        corners = planes[direction]
+        plane = simple.Plane(Origin=corners[0], Point1=corners[1], Point2=corners[2])
+        simple.Hide(image, view)
+        placed = simple.Show(plane, view)
+        translate(placed, up)
+        placed.Scale = scale
+        simple.Render(view)
+        wanted = texels_of_view(view)[0]
+        checks.equal((shown != wanted).sum(), 0, f"texels under a slice that differ from a plane's, {direction}")
+        simple.Hide(plane, view)
+        simple.Render(view)
+        checks.at_least((texels_of_view(view)[0] != wanted).any(-1).sum(), 20,
+                        f"texels that a slice shadows, {direction}")
+
+
 def check_what_has_no_surface():
     floor, light = make_floor(), make_light()
     table = program("vtkTable", "")
@@ -174,5 +209,6 @@ def check_what_has_no_surface():
 
 load_plugin()
 check_types()
+check_slice_representation()
 check_what_has_no_surface()
 checks.finish()
