@@ -200,8 +200,7 @@ bool NeedsProxyPlane(
     }
   }
   // As far from each other as two points may be that stray to opposite sides.
-  return found.Regions.size() > 1 &&
-    stray > 2.0 * (ExactPlanarity * extent + 2.0 * mesh.Rounding);
+  return found.Regions.size() > 1 && stray > 2.0 * (ExactPlanarity * extent + 2.0 * mesh.Rounding);
 }
 
 } // namespace penumbra
