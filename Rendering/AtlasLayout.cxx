@@ -197,6 +197,13 @@ bool AtlasRegion::OwnsBlock(const glm::ivec2& block) const
   return this->Side.x * block.x + this->Side.y * block.y + this->Side.z < 0;
 }
 
+bool AtlasRegion::HasShapeOf(const AtlasRegion& other) const
+{
+  return this->Half == AtlasHalf::Whole && other.Half == AtlasHalf::Whole &&
+    this->Size == other.Size && this->GutterLow == other.GutterLow &&
+    this->GutterHigh == other.GutterHigh;
+}
+
 bool AtlasRegion::Owns(const glm::ivec2& texel) const
 {
   return this->Half == AtlasHalf::Whole ||

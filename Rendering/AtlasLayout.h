@@ -66,6 +66,10 @@ struct PENUMBRARENDERING_EXPORT AtlasRegion
   /// Whether a texel of the receiver is there, and not another receiver's in its place.
   bool Owns(const glm::ivec2& texel) const;
 
+  /// Whether the texels, and the gutter around them, of one are those of the other elsewhere: none
+  /// of them shares a slot.
+  bool HasShapeOf(const AtlasRegion& other) const;
+
   /// Where a rectangle of the receiver's texels lies in the texture, with the gutter beyond what of
   /// their border is in it: rectangles of what is its own.
   std::vector<TexelRectangle> Place(const TexelRectangle& texels) const;

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 vtkStandardNewMacro(vtkBakedProp);
 
@@ -35,6 +37,22 @@ bool IsSameReceiver(const vtkBakedProp::Entry& a, const vtkBakedProp::Entry& b)
     a.HasWindows == b.HasWindows &&
     a.Settings.WindowOf.has_value() == b.Settings.WindowOf.has_value() &&
     a.Plan.Frame.GetNormal() == b.Plan.Frame.GetNormal();
+}
+
+/// Which of some entries has the same texels, but for what comes from elsewhere; from the given one
+/// on first.
+std::optional<std::size_t> FindSame(const vtkBakedProp::Entry& entry,
+  const std::vector<vtkBakedProp::Entry>& others, std::size_t first)
+{
+  for (std::size_t k = 0; k < others.size(); ++k)
+  {
+    const std::size_t i = (first + k) % others.size();
+    if (IsSameReceiver(entry, others[i]))
+    {
+      return i;
+    }
+  }
+  return std::nullopt;
 }
 
 /// Lets masks and textures stay below n/8 + 24 bytes a texel, as do the textures alone once the
@@ -115,20 +133,37 @@ penumbra::TexelRectangle AddWindows(
   return all;
 }
 
+/// The receiver's texels of the windows that only one of the plans has.
+penumbra::TexelRectangle FindOtherWindows(
+  const penumbra::ReceiverPlan& a, const penumbra::ReceiverPlan& b)
+{
+  penumbra::TexelRectangle others;
+  for (const auto& [plan, other] : { std::pair(&a, &b), std::pair(&b, &a) })
+  {
+    const std::vector<penumbra::FineWindow>& windows = other->Fine.Windows;
+    for (const penumbra::FineWindow& window : plan->Fine.Windows)
+    {
+      const bool isShared = std::find(windows.begin(), windows.end(), window) != windows.end();
+      others = isShared ? others : others.Union(window.GetTexels());
+    }
+  }
+  return others;
+}
+
 /// The receiver's texels that a change concerns.
 penumbra::TexelRectangle FindRectangle(const vtkBakedProp::Entry& entry,
   const penumbra::ReceiverPlan& before, const penumbra::BakeChange& change)
 {
   const glm::ivec2 size = GetRegionSize(entry);
-  if (entry.Vertices == 0 && entry.Plan.Fine.Windows != before.Fine.Windows)
-  {
-    return penumbra::WholeRectangle(size);
-  }
+  const penumbra::TexelRectangle windows =
+    entry.Vertices > 0 ? penumbra::TexelRectangle() : FindOtherWindows(entry.Plan, before);
   if (entry.Vertices > 0 || entry.Settings.Settings.ErrorTolerance > 0.0)
   {
-    return change.Resolved.IsEmpty() ? penumbra::TexelRectangle() : penumbra::WholeRectangle(size);
+    const bool isSame = change.Resolved.IsEmpty() && windows.IsEmpty();
+    return isSame ? penumbra::TexelRectangle() : penumbra::WholeRectangle(size);
   }
-  return AddWindows(Coarsen(change.Resolved, entry.Plan.Supersampling, size), entry.Plan);
+  const penumbra::TexelRectangle changed = Coarsen(change.Resolved, entry.Plan.Supersampling, size);
+  return AddWindows(changed.Union(windows), entry.Plan);
 }
 
 /// An entry's MiddleLight.
@@ -249,8 +284,18 @@ vtkBakedProp::Outcome vtkBakedProp::Update(vtkRadianceBaker* baker,
   {
     return this->BakeChanges(baker, std::move(entries), draft);
   }
+  vtkNew<vtkRadianceTexture> texture;
+  std::vector<Entry> before;
+  if (this->IsTextured && this->Window == window && this->Texture->IsAllocated())
+  {
+    texture->Swap(this->Texture);
+    before = std::move(this->Entries);
+  }
   this->Window = window;
-  return this->BakeAll(baker, std::move(entries), draft);
+  const Outcome outcome =
+    this->BakeAll(baker, std::move(entries), std::move(before), texture, draft);
+  texture->ReleaseGraphicsResources();
+  return outcome;
 }
 
 bool vtkBakedProp::IsSameLayout(
@@ -261,8 +306,8 @@ bool vtkBakedProp::IsSameLayout(
       entries.begin(), entries.end(), this->Entries.begin(), this->Entries.end(), IsSameReceiver);
 }
 
-vtkBakedProp::Outcome vtkBakedProp::BakeAll(
-  vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft)
+vtkBakedProp::Outcome vtkBakedProp::BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries,
+  std::vector<Entry> before, vtkRadianceTexture* texture, bool draft)
 {
   this->Texture->ReleaseGraphicsResources();
   this->Entries = std::move(entries);
@@ -274,10 +319,27 @@ vtkBakedProp::Outcome vtkBakedProp::BakeAll(
     withVariance = withVariance || entry.Settings.Settings.ErrorTolerance > 0.0;
   }
   this->IsTextured = this->Texture->Allocate(this->Window, receivers, withVariance);
+  if (withVariance != texture->GetHasVariance())
+  {
+    before.clear();
+  }
+  std::size_t next = 0; // they come in the same order
   for (std::size_t i = 0; i < this->Entries.size() && this->IsTextured; ++i)
   {
-    this->IsTextured =
-      this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(receivers[i].Size), draft);
+    const std::optional<std::size_t> same = FindSame(this->Entries[i], before, next);
+    const auto& region = this->Texture->GetRegions()[i];
+    if (same && region.HasShapeOf(texture->GetRegions()[*same]))
+    {
+      next = *same + 1;
+      this->Texture->CopyRegion(texture, texture->GetRegions()[*same], region);
+      this->IsTextured =
+        this->BakeChange(baker, this->Entries[i], before[*same], i, draft) != Outcome::Failed;
+    }
+    else
+    {
+      this->IsTextured =
+        this->Bake(baker, this->Entries[i], i, penumbra::WholeRectangle(receivers[i].Size), draft);
+    }
   }
   if (!this->IsTextured)
   {
@@ -293,41 +355,46 @@ vtkBakedProp::Outcome vtkBakedProp::BakeChanges(
   Outcome outcome = Outcome::Unchanged;
   for (std::size_t i = 0; i < entries.size(); ++i)
   {
-    Entry& now = entries[i];
-    Entry& before = this->Entries[i];
-    const int halo = now.Settings.Settings.Reconstruction && now.Vertices == 0
-      ? vtkRadianceResolver::GetReconstructionHalo()
-      : 0;
-    const penumbra::BakeChange change = penumbra::FindBakeChange(before.Plan, now.Plan, halo);
-    now.Report.Seconds = 0.0;
-    now.Kept.resize(now.Plan.Lights.size());
-    for (std::size_t l = 0; l < change.Lights.size() && !before.Kept.empty(); ++l)
-    {
-      const penumbra::LightChange& light = change.Lights[l];
-      if (light.Before != penumbra::LightChange::New)
-      {
-        now.Kept[l] = before.Kept[static_cast<std::size_t>(light.Before)];
-        now.Kept[l].Stale = now.Kept[l].Stale.Union(light.Stale);
-      }
-    }
-    now.Base = before.Base;
-    now.Draft = before.Draft;
-    penumbra::TexelRectangle rectangle = FindRectangle(now, before.Plan, change);
-    rectangle = draft ? rectangle : rectangle.Union(now.Draft);
-    if (rectangle.IsEmpty())
-    {
-      now.Report = before.Report;
-      continue;
-    }
-    if (!this->Bake(baker, now, i, rectangle, draft))
+    const Outcome ofEntry = this->BakeChange(baker, entries[i], this->Entries[i], i, draft);
+    if (ofEntry == Outcome::Failed)
     {
       this->ReleaseGraphicsResources();
       return Outcome::Failed;
     }
-    outcome = Outcome::Baked;
+    outcome = ofEntry == Outcome::Baked ? Outcome::Baked : outcome;
   }
   this->Entries = std::move(entries);
   return outcome;
+}
+
+vtkBakedProp::Outcome vtkBakedProp::BakeChange(
+  vtkRadianceBaker* baker, Entry& now, Entry& before, std::size_t region, bool draft)
+{
+  const int halo = now.Settings.Settings.Reconstruction && now.Vertices == 0
+    ? vtkRadianceResolver::GetReconstructionHalo()
+    : 0;
+  const penumbra::BakeChange change = penumbra::FindBakeChange(before.Plan, now.Plan, halo);
+  now.Report.Seconds = 0.0;
+  now.Kept.resize(now.Plan.Lights.size());
+  for (std::size_t l = 0; l < change.Lights.size() && !before.Kept.empty(); ++l)
+  {
+    const penumbra::LightChange& light = change.Lights[l];
+    if (light.Before != penumbra::LightChange::New)
+    {
+      now.Kept[l] = before.Kept[static_cast<std::size_t>(light.Before)];
+      now.Kept[l].Stale = now.Kept[l].Stale.Union(light.Stale);
+    }
+  }
+  now.Base = before.Base;
+  now.Draft = before.Draft;
+  penumbra::TexelRectangle rectangle = FindRectangle(now, before.Plan, change);
+  rectangle = draft ? rectangle : rectangle.Union(now.Draft);
+  if (rectangle.IsEmpty())
+  {
+    now.Report = before.Report;
+    return Outcome::Unchanged;
+  }
+  return this->Bake(baker, now, region, rectangle, draft) ? Outcome::Baked : Outcome::Failed;
 }
 
 bool vtkBakedProp::Bake(vtkRadianceBaker* baker, Entry& entry, std::size_t region,

@@ -160,8 +160,15 @@ private:
   bool FinishTiles(
     vtkRadianceBaker* baker, Entry& entry, std::size_t region, double seconds, double until);
   void BeginTile(const Entry& entry, std::size_t region);
-  Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
+  /// Bakes into a new texture; what the entries of before, which are those of the texture of
+  /// before, have is copied, and of it only what has changed is baked.
+  Outcome BakeAll(vtkRadianceBaker* baker, std::vector<Entry> entries, std::vector<Entry> before,
+    vtkRadianceTexture* texture, bool draft);
   Outcome BakeChanges(vtkRadianceBaker* baker, std::vector<Entry> entries, bool draft);
+  /// Bakes what has changed of an entry, whose region has what it was before. Outcome::Unchanged if
+  /// that is nothing.
+  Outcome BakeChange(
+    vtkRadianceBaker* baker, Entry& now, Entry& before, std::size_t region, bool draft);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkRadianceTexture> Texture;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkRadianceTexture);
 
@@ -93,6 +94,38 @@ bool vtkRadianceTexture::Allocate(vtkOpenGLRenderWindow* window,
     return false;
   }
   return true;
+}
+
+void vtkRadianceTexture::Swap(vtkRadianceTexture* other)
+{
+  std::swap(this->Window, other->Window);
+  std::swap(this->Irradiance, other->Irradiance);
+  std::swap(this->Variance, other->Variance);
+  std::swap(this->Layout, other->Layout);
+  std::swap(this->HasVariance, other->HasVariance);
+  std::swap(this->HasMipmaps, other->HasMipmaps);
+}
+
+void vtkRadianceTexture::CopyRegion(
+  vtkRadianceTexture* source, const Region& from, const Region& to)
+{
+  source->BindAsTarget(false);
+  const glm::ivec2 low = from.Origin - from.GutterLow, target = to.Origin - to.GutterLow;
+  const glm::ivec2 size = from.GutterLow + from.Size + from.GutterHigh;
+  const auto copy = [&](unsigned int attachment, vtkTextureObject* texture)
+  {
+    source->Framebuffer->ActivateReadBuffer(attachment);
+    texture->Activate();
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, target.x, target.y, low.x, low.y, size.x, size.y);
+    texture->Deactivate();
+  };
+  copy(0, this->Irradiance);
+  if (this->HasVariance)
+  {
+    copy(1, this->Variance);
+  }
+  // The source may go next. OpenGL would unbind its framebuffer, and vtkOpenGLState not know of it.
+  this->BindAsTarget(false);
 }
 
 void vtkRadianceTexture::Clear(const Region& region, const penumbra::TexelRectangle& rectangle)

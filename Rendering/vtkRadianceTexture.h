@@ -54,6 +54,17 @@ public:
     const std::vector<penumbra::AtlasReceiver>& receivers, bool withVariance = true);
 
   /**
+   * Exchange the textures, and what is in them, with another one of the same window.
+   */
+  void Swap(vtkRadianceTexture* other);
+
+  /**
+   * Copy a region, with its gutter, of another one that has variance if this one has, to one of its
+   * shape (penumbra::AtlasRegion::HasShapeOf).
+   */
+  void CopyRegion(vtkRadianceTexture* source, const Region& from, const Region& to);
+
+  /**
    * Whether there is a texture: not before Allocate(), and not once its window has freed it.
    */
   bool IsAllocated() const;
@@ -139,6 +150,8 @@ public:
    * (penumbra::AtlasRegion::Owns) are another receiver's.
    */
   Texels Download(const Region& region);
+
+  bool GetHasVariance() const { return this->HasVariance; }
 
   /**
    * The texture of irradiance: GL_RGBA32F.
