@@ -248,6 +248,58 @@ public:
   vtkNew<vtkAreaLightSource> Sun;
 };
 
+/// What an edit may change of a view of several balls, and of a roof whose shadow is large.
+struct ThingsOnGround
+{
+  struct Ball
+  {
+    std::array<double, 3> Centre{ 0.0, 0.0, 0.5 };
+    bool IsVisible = true;
+  };
+  std::vector<Ball> Balls;
+  bool HasRoof = false;
+  double Radiance = 1.0;
+};
+
+/// A view of them.
+class ThingsView : public GroundView
+{
+public:
+  explicit ThingsView(const ThingsOnGround& things)
+    : GroundView(250.0)
+  {
+    this->Renderer->GetActiveCamera()->SetParallelScale(9.0);
+    this->Ball->SetCenter(0.0, 0.0, -5.0); // below the ground
+    for (std::size_t i = 0; i < things.Balls.size(); ++i)
+    {
+      this->Spheres.push_back(vtkSmartPointer<vtkSphereSource>::New());
+      this->Actors.push_back(this->Add(this->Spheres.back()));
+    }
+    this->Roof->SetOrigin(-8, 2, 4);
+    this->Roof->SetPoint1(4, 2, 4);
+    this->Roof->SetPoint2(-8, 9, 4);
+    this->RoofActor = this->Add(this->Roof);
+    this->Show(things);
+  }
+
+  void Show(const ThingsOnGround& things)
+  {
+    for (std::size_t i = 0; i < things.Balls.size(); ++i)
+    {
+      const ThingsOnGround::Ball& ball = things.Balls[i];
+      this->Spheres[i]->SetCenter(ball.Centre[0], ball.Centre[1], ball.Centre[2]);
+      this->Actors[i]->SetVisibility(ball.IsVisible);
+    }
+    this->RoofActor->SetVisibility(things.HasRoof);
+    this->Sun->SetRadiance(things.Radiance, things.Radiance, things.Radiance);
+  }
+
+  vtkNew<vtkPlaneSource> Roof;
+  std::vector<vtkSmartPointer<vtkSphereSource>> Spheres;
+  std::vector<vtkSmartPointer<vtkActor>> Actors;
+  vtkSmartPointer<vtkActor> RoofActor;
+};
+
 int GetBrightness(const std::array<unsigned char, 3>& pixel)
 {
   return pixel[0] + pixel[1] + pixel[2];
@@ -315,6 +367,52 @@ TEST(LargeGrounds, AMovedBallIsShownAsInAFreshView)
     GroundView fresh(250.0);
     fresh.Ball->SetCenter(x, 0.3, 0.5);
     EXPECT_EQ(CountDifferences(moved.Render(), fresh.Render()), 0u) << "ball at " << x;
+  }
+}
+
+// Windows come, go, merge and divide: those that stay are copied, and no edit shows in their
+// texels.
+TEST(LargeGrounds, EditsAreShownAsInAFreshView)
+{
+  constexpr int Balls = 8, Edits = 24;
+  RandomGeometry random(20);
+  ThingsOnGround things;
+  things.Balls.resize(Balls);
+  const auto move = [&](ThingsOnGround::Ball& ball)
+  {
+    ball.Centre = { random.Between(-7.0, 7.0), random.Between(-7.0, 7.0),
+      random.Between(0.2, 2.0) };
+  };
+  for (ThingsOnGround::Ball& ball : things.Balls)
+  {
+    move(ball);
+  }
+  ThingsView edited(things);
+  edited.Render();
+  for (int edit = 0; edit < Edits; ++edit)
+  {
+    ThingsOnGround::Ball& ball = things.Balls[static_cast<std::size_t>(random.Below(Balls))];
+    const int kind = static_cast<int>(random.Below(8));
+    if (kind < 4)
+    {
+      move(ball);
+    }
+    else if (kind < 6)
+    {
+      ball.IsVisible = !ball.IsVisible;
+    }
+    else if (kind == 6)
+    {
+      things.HasRoof = !things.HasRoof;
+    }
+    else
+    {
+      things.Radiance = random.Between(0.5, 2.0);
+    }
+    edited.Show(things);
+    const PassScene::Pixels shown = edited.Render();
+    ThingsView fresh(things);
+    EXPECT_EQ(CountDifferences(shown, fresh.Render()), 0u) << "edit " << edit << ", kind " << kind;
   }
 }
 
