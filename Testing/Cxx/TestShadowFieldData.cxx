@@ -32,6 +32,7 @@ penumbra::ReceiverSettings MakeReceiver()
   settings.Seed = 5;
   settings.ErrorTolerance = 0.01;
   settings.Reconstruction = false;
+  settings.PlanarityTolerance = 0.03;
   return settings;
 }
 
@@ -103,6 +104,8 @@ TEST(ShadowFieldData, EachMissingArrayOfAReceiverHasItsDefault)
       name == "ErrorTolerance" ? byDefault.ErrorTolerance : right.ErrorTolerance;
     right.Reconstruction =
       name == "Reconstruction" ? byDefault.Reconstruction : right.Reconstruction;
+    right.PlanarityTolerance =
+      name == "PlanarityTolerance" ? byDefault.PlanarityTolerance : right.PlanarityTolerance;
     EXPECT_TRUE(*read == right) << "without " << name;
     EXPECT_EQ(read->FindProblem(), "") << "without " << name;
   }

@@ -438,6 +438,9 @@ TEST(ReceiverSettings, NameBadNumbers)
   ExpectProblems<S>({
     { [](S& s) { s.TexelSize = -0.5; }, "TexelSize", "-0.5", length },
     { [](S& s) { s.TexelSize = NaN; }, "TexelSize", "nan", length },
+    { [](S& s) { s.PlanarityTolerance = -1e-3; }, "PlanarityTolerance", "-0.001", length },
+    { [](S& s) { s.PlanarityTolerance = NaN; }, "PlanarityTolerance", "nan", length },
+    { [](S& s) { s.PlanarityTolerance = Infinity; }, "PlanarityTolerance", "inf", length },
     { [](S& s) { s.TexelSize = Infinity; }, "TexelSize", "inf", length },
     { [](S& s) { s.LightSamples = 0; }, "LightSamples", "0", "1 to 65536" },
     { [](S& s) { s.LightSamples = -7; }, "LightSamples", "-7", "1 to 65536" },

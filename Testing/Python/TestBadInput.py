@@ -124,7 +124,8 @@ def check_properties():
     for name, value in (
         ("TexelSize", -1.0), ("LightSamples", 0), ("SampleMultiplier", -2.0), ("Reflectance", [2.0, 0.0, 0.0]),
         ("AmbientRadiance", [-1.0, 0.0, 0.0]), ("SolidAnglePerSample", -0.5), ("ErrorTolerance", -0.25),
-        ("ErrorTolerance", 2.0), ("MaximumLightSamples", 0), ("MaximumLightSamples", 65537)):
+        ("ErrorTolerance", 2.0), ("PlanarityTolerance", -0.5),
+        ("MaximumLightSamples", 0), ("MaximumLightSamples", 65537)):
         good = scene.receiver.GetPropertyValue(name)
         good = good[:] if hasattr(good, "SMProperty") else good
         scene.receiver.SetPropertyWithName(name, value)

@@ -4,9 +4,11 @@
 import numpy
 from paraview import simple
 from vtkmodules.vtkCommonCore import VTK_DOUBLE
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from penumbra_testing import (
-    Checks, bake, cell_array, cell_centers, form_factor, grid_points, load_plugin, make_scene, radiance_map, texels)
+    Checks, Messages, bake, cell_array, cell_centers, form_factor, grid_points, load_plugin, make_scene, radiance_map,
+    texels)
 
 # Texels are single precision; issue 2 allows 1e-5 of the peak.
 LAMBERT_TOLERANCE = 1e-5
@@ -259,6 +261,49 @@ def check_error_estimate():
     checks.check(0.7 < ratio < 1.4, f"error estimate over true error, random patterns: {ratio:.3f}, within 0.7 to 1.4")
 
 
+def check_both_sides():
+    """Side 'Both' gives two blocks, each by the light that arrives there."""
+    scene = make_scene(texel_size=0.5)
+    below = simple.AreaLight(Origin=[-1, -2, -4], Point1=[1, -2, -4], Point2=[-1, 0, -4])
+    scene.receiver.Side = "Both"
+    output = radiance_map([scene.receiver], [scene.sphere], [scene.light, below])
+    checks.equal(output.GetNumberOfBlocks(), 2, "blocks of both sides")
+    names = [output.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) for i in range(output.GetNumberOfBlocks())]
+    checks.equal(names, ["Front", "Back"], "names of the blocks of both sides")
+    front, back = output.GetBlock(0), output.GetBlock(1)
+    wanted = form_factor(cell_centers(back), (0, 0, -1), light_polygon(below))[..., None] * numpy.array(below.Radiance)
+    error = numpy.abs(cell_array(back, "Radiance") - wanted).max() / wanted.max()
+    checks.at_most(error, LAMBERT_TOLERANCE, "the back, which the sphere does not shade, off Lambert's formula")
+    checks.at_least((cell_array(front, "Visibility") < 0.5).sum(), 10, "texels of the front in the sphere's shadow")
+
+
+def check_rounded_coordinates():
+    """Faces whose points are rounded to a centimetre are planar within a PlanarityTolerance of two."""
+    angle = numpy.radians(37.0)
+    along, up = numpy.array([numpy.cos(angle), numpy.sin(angle), 0]), numpy.array([-0.6, 0.8, 0.45])
+    corners = [u * along + v * up for u, v in ((0, 0), (7.3, 0), (9.1, 2.2), (7.3, 4.7), (1.1, 4.1))]
+    source = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=f"""
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray
+points, polygons = vtkPoints(), vtkCellArray()
+points.SetDataTypeToDouble()
+corners = {[[round(float(x), 2) for x in corner] for corner in corners]}
+polygons.InsertNextCell(len(corners))
+for corner in corners:
+    polygons.InsertCellPoint(points.InsertNextPoint(corner))
+output = self.GetPolyDataOutput()
+output.SetPoints(points)
+output.SetPolys(polygons)
+""")
+    lamp = simple.AreaLight(Origin=[2, 2, 9], Point1=[2, 3, 9], Point2=[3, 2, 9])
+    for tolerance, blocks in ((0.02, 1), (1e-4, 0)):
+        receiver = simple.ShadowReceiver(Input=source, TexelSize=0.5, PlanarityTolerance=tolerance)
+        with Messages() as messages:
+            found = len(bake([receiver], [], [lamp]))
+        checks.equal(found, blocks, f"receivers of a face rounded to 1 cm, PlanarityTolerance {tolerance}")
+        checks.equal("PlanarityTolerance" in "".join(messages.get()), blocks == 0, "what allows more is said")
+
+
 def check_settings():
     scene = make_scene(texel_size=0.5, light_samples=10)
     scene.receiver.SampleMultiplier = 2.5
@@ -292,5 +337,7 @@ check_visibility()
 check_visibility_is_exact()
 check_order()
 check_error_estimate()
+check_both_sides()
+check_rounded_coordinates()
 check_settings()
 checks.finish()

@@ -18,8 +18,8 @@ def build():
         receiver, TexelSize=0.07, Supersampling="2", LightSamples=100, SampleMultiplier=1.5,
         SamplingPattern="Correlated Multi-Jittered", Seed=5, Reflectance=[0.9, 0.8, 0.7],
         AmbientRadiance=[0.1, 0.05, 0.15], Side="Front", SolidAnglePerSample=0.001, ErrorTolerance=0.01,
-        MaximumLightSamples=200, Reconstruction=0, ExactShares=0, ProxyPlane=1, ProxyPlaneMode="Given",
-        ProxyOrigin=[0.0, 0.0, -0.1], ProxyNormal=[0.1, 0.0, 1.0], CastShadow=0)
+        MaximumLightSamples=200, Reconstruction=0, ExactShares=0, PlanarityTolerance=0.02,
+        ProxyPlane=1, ProxyPlaneMode="Given", ProxyOrigin=[0.0, 0.0, -0.1], ProxyNormal=[0.1, 0.0, 1.0], CastShadow=0)
     light = simple.AreaLight(registrationName="Lamp")
     change(
         light, Shape="Triangle", Origin=[1, -1, 6], Point1=[1, 1, 6], Point2=[3, -1, 6], Radiance=[8.0, 6.0, 9.0],
