@@ -75,6 +75,11 @@ void NoteDrawingError()
   HasRefusedToDraw = HasOpenGLError() || HasRefusedToDraw;
 }
 
+void RefuseDrawing()
+{
+  HasRefusedToDraw = true;
+}
+
 bool TakeDrawingError()
 {
   return std::exchange(HasRefusedToDraw, false);

@@ -37,6 +37,9 @@ void NoteDrawingError();
 bool TakeDrawingError();
 ///@}
 
+/// What is drawn for the stage would be wrong: it counts as refused.
+void RefuseDrawing();
+
 ///@{
 /**
  * Make room for a texture, of a VTK type such as VTK_FLOAT; or make a texture of what a buffer

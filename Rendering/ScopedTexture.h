@@ -7,6 +7,7 @@
 #ifndef ScopedTexture_h
 #define ScopedTexture_h
 
+#include "OpenGLErrors.h"
 #include "OpenGLLoader.h"
 
 #include "vtkOpenGLState.h"
@@ -17,7 +18,8 @@ namespace penumbra
 {
 
 /// Gives a texture (0: none) to a shader's sampler, on a unit of its own while this lives: samplers
-/// of different kinds must not share a unit, even if the shader uses neither.
+/// of different kinds must not share a unit, even if the shader uses neither. If no unit is free,
+/// what is drawn counts as refused (OpenGLErrors.h).
 class ScopedTexture
 {
 public:
@@ -27,13 +29,21 @@ public:
     , Kind(kind)
     , Unit(state->GetTextureUnitManager()->Allocate())
   {
+    if (this->Unit < 0)
+    {
+      RefuseDrawing();
+      return;
+    }
     this->Bind(texture);
     program->SetUniformi(sampler, this->Unit);
   }
   ~ScopedTexture()
   {
-    this->Bind(0);
-    this->State->GetTextureUnitManager()->Free(this->Unit);
+    if (this->Unit >= 0)
+    {
+      this->Bind(0);
+      this->State->GetTextureUnitManager()->Free(this->Unit);
+    }
   }
   ScopedTexture(const ScopedTexture&) = delete;
   ScopedTexture& operator=(const ScopedTexture&) = delete;

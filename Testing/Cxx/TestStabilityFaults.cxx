@@ -20,10 +20,12 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactoryCollection.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
 #include "vtkRadianceMap.h"
 #include "vtkRenderPass.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTextureUnitManager.h"
 #include "vtkVersionMacros.h"
 
 // Windows of our own, which can do without OpenGL; from VTK 9.4 on they are VTK's.
@@ -350,6 +352,40 @@ TEST(StabilityFault, AnyDrawRefused)
 {
   // Masks, their shares, what is unoccluded and what is not.
   ExpectRefusalsAreReported(OpenGLCall::Draw, "draws", 4);
+}
+
+TEST(StabilityFault, NoTextureUnitIsFree)
+{
+  const TestScene scene = MakeFaultScene();
+  vtkOpenGLRenderWindow* window = GetTestWindow();
+  const std::vector<glm::vec4> good = BakeIfPossible(scene, window);
+  vtkTextureUnitManager* units = window->GetState()->GetTextureUnitManager();
+  for (int free = 0; free < 8; ++free)
+  {
+    std::vector<int> taken;
+    for (int unit = units->Allocate(); unit >= 0; unit = units->Allocate())
+    {
+      taken.push_back(unit);
+    }
+    for (int i = 0; i < free; ++i)
+    {
+      units->Free(taken.back());
+      taken.pop_back();
+    }
+    std::vector<glm::vec4> texels;
+    {
+      const Messages messages;
+      texels = BakeIfPossible(scene, window);
+      EXPECT_EQ(texels.empty(), messages.Count("ERROR") > 0) << messages.GetText();
+    }
+    EXPECT_TRUE(texels.empty() || texels == good) << "half baked with " << free << " units";
+    EXPECT_TRUE(!texels.empty() || free < 7) << "seven are enough";
+    for (const int unit : taken)
+    {
+      units->Free(unit);
+    }
+    EXPECT_EQ(BakeIfPossible(scene, window), good) << "after a bake with " << free << " units";
+  }
 }
 
 // Shaders are compiled once for a window: each bake is the first one of its own.
