@@ -365,7 +365,9 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
   {
     if (isNewWindow)
     {
+      // VTK frees what was of another window in that one's context, which may stay current.
       this->Impl->Shown.clear();
+      window->MakeCurrent();
     }
     this->BakeReceivers(window);
   }
