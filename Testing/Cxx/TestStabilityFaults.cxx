@@ -741,6 +741,12 @@ TEST(StabilityFault, TwoWindowsShareAPass)
 TEST(StabilityFault, TwoWindowsShowTheSameActorsByOnePass)
 {
   FloorScene scene;
+  if (scene.Window->IsA("vtkEGLRenderWindow"))
+  {
+    GTEST_SKIP() << "VTK cannot show an actor in two windows of EGL, with or without a pass: it "
+                    "frees what was of one window while it draws in the other one, and stays in "
+                    "the first one's context, since their PopContext() does nothing (9.6).";
+  }
   const PassScene::Pixels good = scene.Render();
   const auto other = MakeWindow();
   vtkNew<vtkRenderer> renderer;
