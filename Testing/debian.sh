@@ -6,7 +6,7 @@
 #   sh Testing/debian.sh RELEASE [FOLDER]      bookworm, trixie, sid, or 12 and 13
 # As root, with Debian's package debootstrap. FOLDER (default: /var/tmp/penumbra-RELEASE) is made once, from the mirror
 # that this system uses, and holds the release and a clone of what is committed; run again, it goes on with it. What the
-# tests print is in FOLDER/root/penumbra/build. Remove the folder by hand, after its proc and dev are unmounted.
+# tests print is in FOLDER/root/penumbra/build. Remove the folder by hand, after its proc, sys and dev are unmounted.
 set -eu
 source=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 
@@ -36,7 +36,7 @@ if [ ! -e "$folder/etc/debian_version" ]; then
   debootstrap --variant=minbase --include=ca-certificates,git "$release" "$folder" "$mirror" >"$folder.log" 2>&1 ||
     fail "debootstrap has failed. (log: $folder.log)"
 fi
-for kind in proc dev; do
+for kind in proc sys dev; do
   mountpoint -q "$folder/$kind" || mount --bind "/$kind" "$folder/$kind" || fail "$folder/$kind cannot be mounted."
 done
 cp /etc/resolv.conf "$folder/etc/resolv.conf"

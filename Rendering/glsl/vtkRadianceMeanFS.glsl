@@ -29,15 +29,21 @@ void main()
   ivec2 high = min((texel + 1) * factor, fineHigh);
   vec4 radianceSum = vec4(0.0);
   float errorSum = 0.0;
-  ivec2 fine = texel;
-  for (fine[axis] = low[axis]; fine[axis] < high[axis]; ++fine[axis])
+  // No component is chosen by its number: NVIDIA's driver (580) makes of a loop that counts one something that hardly
+  // ends, and that draws nothing.
+  bool isRow = axis == 0;
+  int first = isRow ? low.x : low.y;
+  int last = isRow ? high.x : high.y;
+  for (int i = first; i < last; ++i)
   {
+    ivec2 fine = isRow ? ivec2(i, texel.y) : ivec2(texel.x, i);
     radianceSum += texelFetch(radiance, fine - sourceFirst, 0);
     // All texels share the light's samples, so their errors add up like the errors of one.
     errorSum += sqrt(texelFetch(variance, fine - sourceFirst, 0).r);
   }
-  vec4 mean = radianceSum / float(factor[axis]);
-  float error = errorSum / float(factor[axis]);
+  float count = float(isRow ? factor.x : factor.y);
+  vec4 mean = radianceSum / count;
+  float error = errorSum / count;
   if (hasWithout != 0)
   {
     vec2 part = vec2(max(high - low, 0)) / vec2(factor);
