@@ -289,8 +289,7 @@ int Run(const Plan& plan, const std::string& jsonPath)
 {
   const vtkSmartPointer<vtkOpenGLRenderWindow> window = MakeWindow();
   window->SetSize(800, 600);
-  window->Render();
-  window->MakeCurrent(); // VTK 9.6 does not where there is no renderer
+  window->Initialize(); // VTK 9.6 renders nothing, and makes no context, where there is no renderer
   if (!window->SupportsOpenGL())
   {
     std::fprintf(stderr, "BakeSpeed: no OpenGL: %s\n", window->ReportCapabilities());
