@@ -295,6 +295,7 @@ int Run(const Plan& plan, const std::string& jsonPath)
     std::fprintf(stderr, "BakeSpeed: no OpenGL: %s\n", window->ReportCapabilities());
     return 1;
   }
+  window->MakeCurrent(); // VTK 9.6 has asked a window of its own
   std::vector<BakeResult> bakes;
   for (const int rings : plan.Rings)
   {
