@@ -56,6 +56,7 @@ struct ShownProp
   int Shading = vtkSoftShadowPass::SHADOW;
   bool HasShownTexture = false; ///< the one of the shading
   bool WasTried = false;        ///< to make it: once, so that an error is not one of each frame
+  bool HasProxy = false;        ///< a plane stands for a surface; as of when the texture was made
   bool IsMatte = false;
 
   std::size_t CountEntries() const { return this->Baked->GetEntries().size(); }
@@ -67,11 +68,9 @@ struct ShownProp
   }
   penumbra::ShadowCode GetCode() const
   {
-    const std::vector<vtkBakedProp::Entry>& entries = this->Baked->GetEntries();
     penumbra::ShadowCode code;
-    code.HasSeveral = entries.size() > 1;
-    code.HasProxy = std::any_of(entries.begin(), entries.end(),
-      [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
+    code.HasSeveral = this->CountEntries() > 1;
+    code.HasProxy = this->HasProxy;
     code.ShowsRadiance = this->Shading == vtkSoftShadowPass::RADIANCE;
     code.IsMatte = this->IsMatte;
     return code;
@@ -113,6 +112,9 @@ void MakeShownTexture(
   ShownProp& shown, const penumbra::ShadowScene& scene, vtkOpenGLRenderWindow* window)
 {
   shown.WasTried = true;
+  const std::vector<vtkBakedProp::Entry>& entries = shown.Baked->GetEntries();
+  shown.HasProxy = std::any_of(entries.begin(), entries.end(),
+    [](const vtkBakedProp::Entry& entry) { return entry.Settings.ProxyCentre.has_value(); });
   vtkOpenGLState* state = window->GetState();
   state->Push();
   vtkRadianceTexture* texture = shown.Baked->GetTexture();
@@ -127,7 +129,7 @@ void MakeShownTexture(
   else
   {
     std::vector<glm::dvec3> ambient;
-    for (const vtkBakedProp::Entry& entry : shown.Baked->GetEntries())
+    for (const vtkBakedProp::Entry& entry : entries)
     {
       ambient.push_back(entry.Settings.Settings.AmbientRadiance);
     }
@@ -180,6 +182,7 @@ struct vtkSoftShadowPass::Internals
   double BudgetMemory = 0.0; ///< the MaximumTextureMemory that this is of
   std::string BudgetWarning; ///< the last one
   std::vector<ShownProp> Shown;
+  double Progress = 1.0; ///< of what is shown, see UpdateProgress()
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkTimeStamp BakeTime;
   vtkTimeStamp ShaderTime;
@@ -201,6 +204,18 @@ struct vtkSoftShadowPass::Internals
     const int index = keys && keys->Has(RECEIVER_INDEX()) ? keys->Get(RECEIVER_INDEX()) : -1;
     const bool isThere = index >= 0 && index < static_cast<int>(this->Shown.size());
     return isThere ? &this->Shown[static_cast<std::size_t>(index)] : nullptr;
+  }
+
+  /// To be called when what is shown has changed: frames do not go through all receivers.
+  void UpdateProgress()
+  {
+    double drafts = 0.0, all = 0.0;
+    for (const ShownProp& shown : this->Shown)
+    {
+      drafts += shown.Baked->CountDraftTexels();
+      all += shown.Baked->CountTexels();
+    }
+    this->Progress = all > 0.0 ? 1.0 - drafts / all : 1.0;
   }
 
   /// If there is anything to show.
@@ -370,10 +385,12 @@ void vtkSoftShadowPass::UpdateScene(vtkRenderer* renderer, vtkOpenGLRenderWindow
       window->MakeCurrent();
     }
     this->BakeReceivers(window);
+    this->Impl->UpdateProgress();
   }
   else if (this->BakeMode != DRAFT && this->GetBakeProgress() < 1.0)
   {
     this->FinishDrafts();
+    this->Impl->UpdateProgress();
   }
   this->ReportProgress();
 }
@@ -459,13 +476,7 @@ void vtkSoftShadowPass::FinishDrafts()
 
 double vtkSoftShadowPass::GetBakeProgress() const
 {
-  double drafts = 0.0, all = 0.0;
-  for (const ShownProp& shown : this->Impl->Shown)
-  {
-    drafts += shown.Baked->CountDraftTexels();
-    all += shown.Baked->CountTexels();
-  }
-  return all > 0.0 ? 1.0 - drafts / all : 1.0;
+  return this->Impl->Progress;
 }
 
 void vtkSoftShadowPass::ReportProgress()
@@ -593,8 +604,13 @@ void vtkSoftShadowPass::ChooseShading()
 {
   // Props may have been deleted since they were baked.
   std::vector<ShownProp>& all = this->Impl->Shown;
-  all.erase(
-    std::remove_if(all.begin(), all.end(), [](const ShownProp& s) { return !s.Prop; }), all.end());
+  const auto gone =
+    std::remove_if(all.begin(), all.end(), [](const ShownProp& s) { return !s.Prop; });
+  if (gone != all.end())
+  {
+    all.erase(gone, all.end());
+    this->Impl->UpdateProgress();
+  }
   for (ShownProp& shown : this->Impl->Shown)
   {
     const int shading = this->GetShadingOf(shown.Prop);
@@ -771,6 +787,7 @@ void vtkSoftShadowPass::ReleaseGraphicsResources(vtkWindow* window)
     }
     this->Impl->Shown.clear();    // textures free themselves in their own context
     this->Impl->Window = nullptr; // the next frame bakes anew
+    this->Impl->UpdateProgress();
   }
   this->Superclass::ReleaseGraphicsResources(window);
 }
