@@ -39,6 +39,7 @@ using Polygon = ReceiverGrid::Polygon;
 Polygon ClipToHalfSpace(const Polygon& polygon, int axis, double sign, double limit)
 {
   Polygon clipped;
+  clipped.reserve(polygon.size() + 1);
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const glm::dvec3& from = polygon[i];
@@ -57,6 +58,19 @@ Polygon ClipToHalfSpace(const Polygon& polygon, int axis, double sign, double li
   return clipped;
 }
 
+/// The smallest and the largest of a coordinate.
+glm::dvec2 FindExtent(const Polygon& polygon, int axis)
+{
+  glm::dvec2 extent(std::numeric_limits<double>::infinity());
+  extent.y = -extent.x;
+  for (const glm::dvec3& corner : polygon)
+  {
+    extent.x = std::min(extent.x, corner[axis]);
+    extent.y = std::max(extent.y, corner[axis]);
+  }
+  return extent;
+}
+
 double GetArea(const Polygon& polygon, const glm::dvec3& scale)
 {
   glm::dvec3 area(0.0);
@@ -66,6 +80,20 @@ double GetArea(const Polygon& polygon, const glm::dvec3& scale)
       scale * (polygon[i - 1] - polygon.front()), scale * (polygon[i] - polygon.front()));
   }
   return 0.5 * glm::length(area);
+}
+
+/// Whether two polygons have the same corners, but for rounding, in coordinates of the box.
+bool IsSameShape(const Polygon& a, const Polygon& b)
+{
+  constexpr double Rounding = 1e-12;
+  return a.size() == b.size() &&
+    std::all_of(a.begin(), a.end(),
+      [&](const glm::dvec3& p)
+      {
+        return std::any_of(b.begin(), b.end(),
+          [&](const glm::dvec3& q)
+          { return glm::all(glm::lessThanEqual(glm::abs(p - q), glm::dvec3(Rounding))); });
+      });
 }
 
 /// The number of cells along each axis of a box: about so many in all, as cubic as they can be.
@@ -110,6 +138,15 @@ struct ReceiverGrid::Cell
   std::vector<Piece> Pieces;
   double Area = 0.0; ///< of all pieces
 
+  /// Not if all that is in the cell is the same place: a receiver, and a window of finer texels.
+  bool MayBeSeparated() const
+  {
+    const Piece& first = this->Pieces.front();
+    return !std::all_of(this->Pieces.begin() + 1, this->Pieces.end(),
+      [&](const Piece& piece) {
+        return piece.IsEverywhere == first.IsEverywhere && IsSameShape(piece.Shape, first.Shape);
+      });
+  }
   bool HasMany() const { return this->Pieces.size() > FewReceivers; }
   /// The more, the earlier it is divided.
   double GetWeight() const { return this->Area * (static_cast<double>(this->Pieces.size()) - 1.0); }
@@ -178,7 +215,8 @@ private:
   bool Divide(const Cell& cell)
   {
     constexpr std::size_t words = Side * Side * Side;
-    if (cell.Depth >= MaximumDepth || this->Grid.Table.size() + words > this->MaximumWords)
+    if (cell.Depth >= MaximumDepth || this->Grid.Table.size() + words > this->MaximumWords ||
+      !cell.MayBeSeparated())
     {
       return false;
     }
@@ -202,6 +240,8 @@ private:
   std::vector<Cell> MakeCells(const Cell& parent, const glm::ivec3& count) const
   {
     std::vector<Cell> cells;
+    cells.reserve(static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y) *
+      static_cast<std::size_t>(count.z));
     for (int z = 0; z < count.z; ++z)
     {
       for (int y = 0; y < count.y; ++y)
@@ -236,46 +276,43 @@ private:
       return;
     }
     const int stride = axis == 0 ? 1 : axis == 1 ? count.x : count.x * count.y;
+    const glm::dvec2 extent = FindExtent(piece.Shape, axis);
     const glm::ivec2 range =
-      this->FindSlices(piece, axis, cells[static_cast<std::size_t>(first)], count[axis]);
+      this->FindSlices(piece, extent, axis, cells[static_cast<std::size_t>(first)], count[axis]);
     for (int i = range.x; i <= range.y; ++i)
     {
       const int index = first + i * stride;
       const Cell& cell = cells[static_cast<std::size_t>(index)];
-      Piece part{ piece.Receiver, piece.IsEverywhere, {}, 0.0 };
-      if (!piece.IsEverywhere)
+      const double low = cell.Low[axis] - this->Margin[axis];
+      const double high = cell.Low[axis] + cell.Size[axis] + this->Margin[axis];
+      if (piece.IsEverywhere || (extent.x >= low && extent.y <= high))
       {
-        const double low = cell.Low[axis] - this->Margin[axis];
-        const double high = cell.Low[axis] + cell.Size[axis] + this->Margin[axis];
-        part.Shape =
-          ClipToHalfSpace(ClipToHalfSpace(piece.Shape, axis, -1.0, -low), axis, 1.0, high);
+        this->Distribute(piece, axis - 1, index, count, cells); // as it is: that copies nothing
+        continue;
       }
-      if (piece.IsEverywhere || !part.Shape.empty())
+      const Piece part{ piece.Receiver, false,
+        ClipToHalfSpace(ClipToHalfSpace(piece.Shape, axis, -1.0, -low), axis, 1.0, high), 0.0 };
+      if (!part.Shape.empty())
       {
         this->Distribute(part, axis - 1, index, count, cells);
       }
     }
   }
 
-  /// The first and the last slice along an axis that a piece may be in.
-  glm::ivec2 FindSlices(const Piece& piece, int axis, const Cell& first, int count) const
+  /// The first and the last slice along an axis that a piece of an extent may be in.
+  glm::ivec2 FindSlices(
+    const Piece& piece, const glm::dvec2& extent, int axis, const Cell& first, int count) const
   {
     if (piece.IsEverywhere)
     {
       return { 0, count - 1 };
-    }
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const glm::dvec3& corner : piece.Shape)
-    {
-      low = std::min(low, corner[axis]);
-      high = std::max(high, corner[axis]);
     }
     const auto slice = [&](double place)
     {
       const double found = std::floor((place - first.Low[axis]) / first.Size[axis]);
       return static_cast<int>(glm::clamp(found, 0.0, count - 1.0));
     };
-    return { slice(low - this->Margin[axis]), slice(high + this->Margin[axis]) };
+    return { slice(extent.x - this->Margin[axis]), slice(extent.y + this->Margin[axis]) };
   }
 
   /// Adds the cells of a grid to the table; those of several receivers may be divided.
