@@ -29,8 +29,8 @@ void main()
   ivec2 high = min((texel + 1) * factor, fineHigh);
   vec4 radianceSum = vec4(0.0);
   float errorSum = 0.0;
-  // No component is chosen by its number: NVIDIA's driver (580) makes of a loop that counts one something that hardly
-  // ends, and that draws nothing.
+  // No component is chosen by its number: with a loop that counted fine[axis], bakes on an NVIDIA H200 (driver 580) took
+  // many seconds, and the finer texels were all 0.
   bool isRow = axis == 0;
   int first = isRow ? low.x : low.y;
   int last = isRow ? high.x : high.y;
